@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solvers/ceres_options.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace frond {
+namespace {
+
+constexpr int kMostIterations = 1'000'000'000;
+
+OptionSpec Number(const std::string& name, double value, const std::string& help, double minimum,
+                  double maximum) {
+  return {.name = name,
+          .type = OptionType::kNumber,
+          .default_value = value,
+          .help = help,
+          .minimum = minimum,
+          .maximum = maximum};
+}
+
+OptionSpec Choice(const std::string& name, const std::string& value, const std::string& help,
+                  const std::vector<std::string>& words) {
+  return {.name = name, .type = OptionType::kChoice, .default_value = value, .help = help, .words = words};
+}
+
+std::vector<OptionSpec> CommonSpecs() {
+  return {
+      {.name = "max_iterations",
+       .type = OptionType::kInteger,
+       .default_value = 1000,
+       .help = "Steps tried, accepted or not; 0 evaluates the start only",
+       .minimum = 0,
+       .maximum = kMostIterations},
+      // Tighter than Ceres's 1e-6, which leaves few digits on slowly converging fits (MATH.md §7).
+      Number("function_tolerance", 1e-12, "Stop where |change of cost| < tolerance * cost; 0 never", 0, 1),
+      Number("gradient_tolerance", 1e-10, "Stop where the largest |gradient| <= tolerance; 0 never", 0,
+             1e300),
+      Number("parameter_tolerance", 1e-12, "Stop where |step| <= tolerance * (|x| + tolerance); 0 never", 0,
+             1),
+  };
+}
+
+std::vector<OptionSpec> TrustRegionSpecs() {
+  return {
+      Number("initial_trust_region_radius", 1e4,
+             "Start of the trust region (LM: 1/damping); small values keep first steps short", 1e-16, 1e16),
+      Choice(
+          "linear_solver", "dense_qr",
+          "dense_qr: most accurate; dense_normal_cholesky: faster; sparse_normal_cholesky: many parameters "
+          "of which each residual touches few",
+          {"dense_qr", "dense_normal_cholesky", "sparse_normal_cholesky"}),
+      {.name = "nonmonotonic_steps",
+       .type = OptionType::kFlag,
+       .default_value = false,
+       .help = "Accept steps uphill on the way (at most five in a row); the best is returned"},
+  };
+}
+
+ceres::LinearSolverType LinearSolver(const std::string& name) {
+  if (name == "dense_qr") return ceres::DENSE_QR;
+  if (name == "dense_normal_cholesky") return ceres::DENSE_NORMAL_CHOLESKY;
+  if (name == "sparse_normal_cholesky") return ceres::SPARSE_NORMAL_CHOLESKY;
+  throw std::logic_error("no linear solver is named '" + name + "'");
+}
+
+void SetTrustRegion(const Options& options, CeresMethod method, ceres::Solver::Options* ceres_options) {
+  ceres_options->minimizer_type = ceres::TRUST_REGION;
+  ceres_options->initial_trust_region_radius = options.Number("initial_trust_region_radius");
+  ceres_options->linear_solver_type = LinearSolver(options.Text("linear_solver"));
+  ceres_options->sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+  ceres_options->use_nonmonotonic_steps = options.Flag("nonmonotonic_steps");
+  ceres_options->trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
+  if (method == CeresMethod::kDogleg) {
+    ceres_options->trust_region_strategy_type = ceres::DOGLEG;
+    ceres_options->dogleg_type =
+        options.Text("dogleg_type") == "subspace" ? ceres::SUBSPACE_DOGLEG : ceres::TRADITIONAL_DOGLEG;
+  }
+}
+
+void SetLineSearch(const Options& options, ceres::Solver::Options* ceres_options) {
+  ceres_options->minimizer_type = ceres::LINE_SEARCH;
+  ceres_options->line_search_direction_type = ceres::LBFGS;
+  ceres_options->line_search_type = ceres::WOLFE;  // Armijo would not keep L-BFGS's matrix positive
+  ceres_options->max_lbfgs_rank = options.Integer("lbfgs_rank");
+}
+
+}  // namespace
+
+std::vector<OptionSpec> CeresOptionSpecs(CeresMethod method) {
+  std::vector<OptionSpec> specs = CommonSpecs();
+  if (method == CeresMethod::kLbfgs) {
+    specs.push_back({.name = "lbfgs_rank",
+                     .type = OptionType::kInteger,
+                     .default_value = 20,
+                     .help = "Past steps kept to model the curvature",
+                     .minimum = 1,
+                     .maximum = 1000});
+    return specs;
+  }
+  for (OptionSpec& spec : TrustRegionSpecs()) specs.push_back(std::move(spec));
+  if (method == CeresMethod::kDogleg) {
+    specs.push_back(Choice("dogleg_type", "traditional",
+                           "traditional: two straight legs; subspace: the best of the plane they span",
+                           {"traditional", "subspace"}));
+  }
+  return specs;
+}
+
+ceres::Solver::Options CeresOptionsFrom(const Options& options, int threads, CeresMethod method) {
+  ceres::Solver::Options ceres_options;
+  ceres_options.max_num_iterations = options.Integer("max_iterations");
+  ceres_options.function_tolerance = options.Number("function_tolerance");
+  ceres_options.gradient_tolerance = options.Number("gradient_tolerance");
+  ceres_options.parameter_tolerance = options.Number("parameter_tolerance");
+  ceres_options.num_threads = threads;
+  ceres_options.logging_type = ceres::SILENT;
+  ceres_options.update_state_every_iteration = true;
+  if (method == CeresMethod::kLbfgs) {
+    SetLineSearch(options, &ceres_options);
+  } else {
+    SetTrustRegion(options, method, &ceres_options);
+  }
+  return ceres_options;
+}
+
+}  // namespace frond

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ceres's own minimisers: `lm` (Levenberg–Marquardt), `dogleg` (Powell) and `lbfgs` (line search).
+//
+// They minimise the residual blocks, from the fit's start. The report's objective is that of the x returned;
+// where the fit's objective is not the Ceres cost it is fit.Objective(x), evaluated also at every accepted
+// iterate for the trace and the target. These extra evaluations measure, they do not drive the solver, and
+// are not counted. As what is minimised is another function then, the result can be worse by the objective
+// than an iterate before it (and than the trace's best), or than the start.
+//
+// Bounds are held by an active set around Ceres's own projection (active_bounds.h).
+//
+// A budget ends a solve after the iteration that used it up.
+#pragma once
+
+#include "solvers/solver.h"
+
+namespace frond {
+
+SolverType LmSolverType();
+SolverType DoglegSolverType();
+SolverType LbfgsSolverType();  // Solve throws ConfigError where a free parameter has a finite bound
+
+}  // namespace frond

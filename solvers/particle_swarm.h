@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/options.h"
+#include "base/random.h"
+#include "solvers/search_box.h"
+#include "solvers/solver.h"
+#include "solvers/swarm_topology.h"
+
+namespace frond {
+
+// Particle swarm optimisation, eqs. (12)–(14) of Wu et al. 2021 (Sensors 21, 1304), after Kennedy and
+// Eberhart 1995:
+//
+//   V ← θ V + c₁ r₁ (P_best − X) + c₂ r₂ (G_best − X)                                              (12)
+//   X ← X + V                                                                                      (13)
+//   θ = θ_max − (θ_max − θ_min) j / j_max                                                           (14)
+//
+// r₁ and r₂ are drawn anew in [0, 1) for each particle and dimension. All particles move, then all are
+// evaluated (in parallel), then bests are updated: the result does not depend on the number of threads.
+struct ParticleSwarmSettings {
+  // The paper's settings: swarm_size 5, iterations 10, kLinear, cognitive = social = 2.
+  enum class Inertia {
+    kConstriction,  // constant θ = 0.7298 with c = 1.49618 (Clerc and Kennedy 2002)
+    kLinear,        // eq. (14), 0.9 → 0.4
+  };
+  enum class Boundary {  // what happens to a particle beyond a bound
+    kClamp,              // put on the bound, its velocity kept
+    kReflect,            // mirrored at the bound with its velocity (on the bound if that is outside again)
+    kAbsorb,             // put on the bound, at rest in that direction
+  };
+
+  int swarm_size = 40;
+  int iterations = 1000;  // batches after the first
+  Inertia inertia = Inertia::kConstriction;
+  double cognitive = 1.49618, social = 1.49618;  // c₁, c₂
+  double velocity_limit = 0.5;                   // largest |V| a step, as a share of the start box
+  Boundary boundary = Boundary::kReflect;
+  SwarmTopology topology = SwarmTopology::kGlobal;
+  bool start_at_guess = true;  // the first particle starts at the fit's start, wherever the box
+  int stall_iterations = 0;    // stop after so many without a better best; 0: never
+};
+
+// θ of iteration j = 1 … j_max.
+double InertiaWeight(ParticleSwarmSettings::Inertia inertia, int iteration, int max_iterations);
+
+// The particles' positions, velocities and bests, over the searched values of a box. Knows no objective.
+class ParticleSwarm {
+ public:
+  // Positions uniform in the start box, velocities half-way to another such point. All random numbers are
+  // drawn here and in Move, from `random`, in a fixed order.
+  ParticleSwarm(const SearchBox& box, const ParticleSwarmSettings& settings, Random* random);
+
+  int size() const { return settings_.swarm_size; }
+  const double* Position(int particle) const { return position_.data() + particle * dimensions_; }
+  const double* Velocity(int particle) const { return velocity_.data() + particle * dimensions_; }
+
+  // Takes an evaluated objective at the particle's position, +∞ where there is none. True where it is the
+  // best of all so far.
+  bool Learn(int particle, double objective);
+
+  // Eqs. (12) and (13) for all particles, with the boundary rule.
+  void Move(double inertia_weight);
+
+  double best_objective() const { return best_objective_; }
+  const double* best_position() const { return best_.data() + best_particle_ * dimensions_; }
+
+ private:
+  void MoveParticle(int particle, const double* informant_best, double inertia_weight);
+
+  const SearchBox& box_;
+  const ParticleSwarmSettings settings_;
+  Random* random_;
+  std::size_t dimensions_;
+  std::vector<std::vector<int>> informants_;
+  std::vector<double> position_, velocity_, best_;  // swarm_size × dimensions
+  std::vector<double> best_objectives_;             // of each particle
+  double best_objective_;
+  int best_particle_ = 0;
+};
+
+std::vector<OptionSpec> ParticleSwarmSpecs();
+ParticleSwarmSettings ParticleSwarmSettingsFrom(const Options& options);
+
+// `pso`. Minimises the fit's objective; NaN counts as +∞. The evaluation budget is kept exactly: the last
+// batch is cut short. On the target or the time limit it stops within the batch's evaluations (the target's
+// batch is finished, for the same count whatever the threads).
+SolverType ParticleSwarmSolverType();
+
+}  // namespace frond
