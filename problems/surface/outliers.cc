@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "problems/surface/outliers.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+namespace frond {
+namespace {
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Points by the cube of a grid that they fall into.
+struct CubeGrid {
+  std::unordered_map<std::uint64_t, std::uint32_t> place;
+  std::vector<Eigen::Vector3i> cubes;
+  std::vector<std::uint32_t> members;  // points in each
+  std::vector<std::uint32_t> cube_of;  // by point
+
+  static std::uint64_t Key(const Eigen::Vector3i& cube) {
+    const auto part = [](int x) { return static_cast<std::uint64_t>(x) & 0x1fffff; };
+    // Mixed, since std::hash leaves integers as they are.
+    std::uint64_t key =
+        (part(cube.x()) | part(cube.y()) << 21 | part(cube.z()) << 42) * 0x9e3779b97f4a7c15ULL;
+    return key ^ (key >> 32);
+  }
+};
+
+CubeGrid FillCubes(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& corner, double side) {
+  CubeGrid grid;
+  grid.cube_of.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3i cube = ((points[i] - corner) / side).array().floor().cast<int>();
+    const auto [entry, added] =
+        grid.place.emplace(CubeGrid::Key(cube), static_cast<std::uint32_t>(grid.cubes.size()));
+    if (added) {
+      grid.cubes.push_back(cube);
+      grid.members.push_back(0);
+    }
+    grid.cube_of[i] = entry->second;
+    ++grid.members[entry->second];
+  }
+  return grid;
+}
+
+// √(area / points), the area from the number of cubes filled, of a side that holds eight points on average.
+// Cubes with one point are left out as far outliers may be.
+double SheetSpacing(std::span<const Eigen::Vector3d> points, const Eigen::AlignedBox3d& box) {
+  std::vector<Eigen::Vector3d> some;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / 20000);
+  for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+  for (double side = box.sizes().maxCoeff() / 1024;; side *= 1.5) {
+    const CubeGrid grid = FillCubes(some, box.min(), side);
+    std::size_t filled = 0, within = 0;
+    for (const std::uint32_t members : grid.members) {
+      if (members < 2) continue;
+      ++filled;
+      within += members;
+    }
+    if (2 * within >= some.size() && within >= 8 * filled) {
+      return side * std::sqrt(static_cast<double>(filled) / static_cast<double>(points.size()));
+    }
+    if (side > box.sizes().maxCoeff()) return side;
+  }
+}
+
+// The points in a cube and the 26 round it.
+std::uint32_t PointsAround(const CubeGrid& grid, const Eigen::Vector3i& cube) {
+  std::uint32_t sum = 0;
+  for (int k = 0; k < 27; ++k) {
+    const Eigen::Vector3i beside = cube + Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    const auto found = grid.place.find(CubeGrid::Key(beside));
+    if (found != grid.place.end()) sum += grid.members[found->second];
+  }
+  return sum;
+}
+
+// Cubes with fewer than four points, or a tenth of what is usual where points are, in and round them.
+std::vector<std::uint8_t> SparseCubes(const CubeGrid& grid) {
+  std::vector<std::uint32_t> around;
+  around.reserve(grid.cubes.size());
+  for (const auto& cube : grid.cubes) around.push_back(PointsAround(grid, cube));
+  std::vector<std::uint32_t> by_point;
+  by_point.reserve(grid.cube_of.size());
+  for (const std::uint32_t cube : grid.cube_of) by_point.push_back(around[cube]);
+  const auto middle = by_point.begin() + static_cast<std::ptrdiff_t>(by_point.size() / 2);
+  std::nth_element(by_point.begin(), middle, by_point.end());
+  const std::uint32_t least = std::max<std::uint32_t>(4, *middle / 10);
+  std::vector<std::uint8_t> sparse;
+  for (const std::uint32_t count : around) sparse.push_back(count < least);
+  return sparse;
+}
+
+// The number of the connected part that each cube belongs to, and how many points each part has.
+std::vector<int> ConnectedParts(const CubeGrid& grid, std::vector<std::size_t>* sizes) {
+  std::vector<int> part(grid.cubes.size(), -1);
+  std::vector<std::uint32_t> stack;
+  for (std::size_t seed = 0; seed < part.size(); ++seed) {
+    if (part[seed] >= 0) continue;
+    const int number = static_cast<int>(sizes->size());
+    sizes->push_back(0);
+    part[seed] = number;
+    stack.assign(1, static_cast<std::uint32_t>(seed));
+    while (!stack.empty()) {
+      const std::uint32_t c = stack.back();
+      stack.pop_back();
+      sizes->back() += grid.members[c];
+      for (int k = 0; k < 27; ++k) {
+        const Eigen::Vector3i beside = grid.cubes[c] + Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+        const auto found = grid.place.find(CubeGrid::Key(beside));
+        if (found == grid.place.end() || part[found->second] >= 0) continue;
+        part[found->second] = number;
+        stack.push_back(found->second);
+      }
+    }
+  }
+  return part;
+}
+
+// The length of o_i less the median, by coordinates, over the 12 nearest other points.
+double StandsOutBy(std::size_t i, std::span<const Eigen::Vector3d> points,
+                   std::span<const Eigen::Vector3d> offsets, const KdTree& tree) {
+  std::array<KdTree::Neighbour, 13> neighbours;
+  const std::size_t found = tree.Nearest(points[i], neighbours);
+  Eigen::Vector3d median = Eigen::Vector3d::Zero();
+  std::array<double, 13> others;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < found; ++k) {
+      if (neighbours[k].index != i) others[count++] = offsets[neighbours[k].index][axis];
+    }
+    if (count == 0) continue;
+    const auto middle = others.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(others.begin(), middle, others.begin() + static_cast<std::ptrdiff_t>(count));
+    median[axis] = *middle;
+  }
+  return (offsets[i] - median).norm();
+}
+
+}  // namespace
+
+double PointSpacing(std::span<const Eigen::Vector3d> points, const KdTree& tree) {
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / 2000);
+  std::vector<double> radii;
+  std::array<KdTree::Neighbour, 9> neighbours;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    const std::size_t found = tree.Nearest(points[i], neighbours);
+    radii.push_back(std::sqrt(neighbours[found - 1].squared_distance));
+  }
+  return Median(std::move(radii)) * std::sqrt(M_PI / 8);
+}
+
+std::vector<std::uint8_t> StrayPoints(std::span<const Eigen::Vector3d> points) {
+  constexpr double kDense = 2.5, kReach = 5;  // sides of the cubes in spacings
+  std::vector<std::uint8_t> stray(points.size(), 0);
+  Eigen::AlignedBox3d box;
+  for (const auto& point : points) box.extend(point);
+  const double extent = points.empty() ? 0 : box.sizes().maxCoeff();
+  if (points.size() < 10 || !(extent > 0)) return stray;
+  const double spacing = std::max(SheetSpacing(points, box), extent / 0x1p21);  // at most 2^20 cubes a side
+  const CubeGrid dense = FillCubes(points, box.min(), kDense * spacing);
+  const std::vector<std::uint8_t> sparse = SparseCubes(dense);
+  std::vector<Eigen::Vector3d> kept;
+  std::vector<std::size_t> index;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    stray[i] = sparse[dense.cube_of[i]];
+    if (stray[i]) continue;
+    kept.push_back(points[i]);
+    index.push_back(i);
+  }
+  const CubeGrid grid = FillCubes(kept, box.min(), kReach * spacing);
+  std::vector<std::size_t> sizes;
+  const std::vector<int> part = ConnectedParts(grid, &sizes);
+  const int largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  for (std::size_t k = 0; k < kept.size(); ++k) stray[index[k]] = part[grid.cube_of[k]] != largest;
+  return stray;
+}
+
+std::vector<std::uint8_t> OutlyingPoints(std::span<const Eigen::Vector3d> points,
+                                         std::span<const Eigen::Vector3d> offsets, const KdTree& tree,
+                                         double threshold) {
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / 4000);
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    sample.push_back(StandsOutBy(i, points, offsets, tree));
+  }
+  const double limit = threshold * 1.4826 * Median(std::move(sample));
+  std::vector<std::uint8_t> outlying(points.size(), 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // Half the limit is a cheap sieve: a point that near would need a neighbourhood as far off on the other
+    // side.
+    if (offsets[i].norm() <= 0.5 * limit) continue;
+    outlying[i] = StandsOutBy(i, points, offsets, tree) > limit;
+  }
+  return outlying;
+}
+
+}  // namespace frond

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "problems/surface/surface_quality.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "models/foot_point_search.h"
+#include "models/surface_integrals.h"
+
+namespace frond {
+namespace {
+
+constexpr std::size_t kChunk = 512;
+constexpr int kSurfaceSamples = 40000;  // over the whole domain, about
+
+double Percentile(std::vector<double>* values, double share) {
+  if (values->empty()) return 0;
+  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(values->size() - 1));
+  std::nth_element(values->begin(), values->begin() + k, values->end());
+  return (*values)[static_cast<std::size_t>(k)];
+}
+
+// A regular grid of samples over the domain, at cell centres.
+struct SampleGrid {
+  int nu, nv;
+  std::vector<Eigen::Vector3d> position, area_normal;  // S, S_u × S_v
+  std::vector<std::uint8_t> inside;
+};
+
+SampleGrid SampleSurface(const TrimmedSurface& trimmed, int threads) {
+  const SurfaceCells cells(trimmed.surface);
+  const BSplineBasis &bu = cells.basis_u(), &bv = cells.basis_v();
+  SampleGrid grid;
+  const int side = static_cast<int>(std::sqrt(kSurfaceSamples));
+  grid.nu = grid.nv = side;
+  const std::size_t total = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  grid.position.resize(total);
+  grid.area_normal.resize(total);
+  grid.inside.resize(total);
+  ParallelFor(static_cast<std::size_t>(side), 1, threads, [&](std::size_t i, std::size_t) {
+    const double u = bu.begin() + (bu.end() - bu.begin()) * (static_cast<double>(i) + 0.5) / side;
+    const std::vector<double> crossings = TrimCrossings(trimmed.trim, u);
+    for (int j = 0; j < side; ++j) {
+      const double v = bv.begin() + (bv.end() - bv.begin()) * (j + 0.5) / side;
+      const std::size_t k = i * static_cast<std::size_t>(side) + static_cast<std::size_t>(j);
+      const SurfaceCells::Jet1 jet = cells.Evaluate1(u, v);
+      grid.position[k] = jet.position;
+      grid.area_normal[k] = jet.du.cross(jet.dv);
+      const auto below = std::lower_bound(crossings.begin(), crossings.end(), v) - crossings.begin();
+      grid.inside[k] = trimmed.trim.empty() || below % 2 == 1;
+    }
+  });
+  return grid;
+}
+
+// Samples inside whose normal turns against the mean over its 9 × 9 surroundings.
+int CountFlipped(const SampleGrid& grid) {
+  constexpr int kReach = 4;
+  int flipped = 0;
+  const auto at = [&](int i, int j) { return static_cast<std::size_t>(i * grid.nv + j); };
+  // Sums over windows from running sums along v, then along u.
+  std::vector<Eigen::Vector3d> rows(grid.area_normal.size());
+  for (int i = 0; i < grid.nu; ++i) {
+    for (int j = 0; j < grid.nv; ++j) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (int k = std::max(0, j - kReach); k <= std::min(grid.nv - 1, j + kReach); ++k) {
+        if (grid.inside[at(i, k)]) sum += grid.area_normal[at(i, k)];
+      }
+      rows[at(i, j)] = sum;
+    }
+  }
+  for (int i = 0; i < grid.nu; ++i) {
+    for (int j = 0; j < grid.nv; ++j) {
+      if (!grid.inside[at(i, j)]) continue;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (int k = std::max(0, i - kReach); k <= std::min(grid.nu - 1, i + kReach); ++k)
+        sum += rows[at(k, j)];
+      if (sum.dot(grid.area_normal[at(i, j)]) < 0) ++flipped;
+    }
+  }
+  return flipped;
+}
+
+void JudgePoints(const std::vector<std::uint8_t>& outlier, const std::vector<double>& signed_distance,
+                 SurfaceQuality* quality) {
+  std::vector<double> distances;
+  distances.reserve(signed_distance.size());
+  double squared = 0, inlier_squared = 0;
+  std::size_t inliers = 0;
+  for (std::size_t i = 0; i < signed_distance.size(); ++i) {
+    const double d = std::abs(signed_distance[i]);
+    distances.push_back(d);
+    squared += d * d;
+    quality->mean += d;
+    quality->max = std::max(quality->max, d);
+    if (!outlier.empty() && outlier[i]) continue;
+    ++inliers;
+    inlier_squared += d * d;
+    quality->inlier_max = std::max(quality->inlier_max, d);
+  }
+  const auto n = static_cast<double>(signed_distance.size());
+  quality->rmse = std::sqrt(squared / n);
+  quality->mean /= n;
+  quality->inlier_rmse = inliers > 0 ? std::sqrt(inlier_squared / static_cast<double>(inliers)) : 0;
+  quality->p95 = Percentile(&distances, 0.95);
+}
+
+// The distance to the nearest point that counts, among the eight nearest.
+double DistanceToData(const KdTree& tree, const std::vector<std::uint8_t>& outlier,
+                      const Eigen::Vector3d& query) {
+  if (outlier.empty()) return std::sqrt(tree.Nearest(query).squared_distance);
+  std::array<KdTree::Neighbour, 8> neighbours;
+  const std::size_t found = tree.Nearest(query, neighbours);
+  for (std::size_t k = 0; k < found; ++k) {
+    if (!outlier[neighbours[k].index]) return std::sqrt(neighbours[k].squared_distance);
+  }
+  return std::sqrt(neighbours[found - 1].squared_distance);
+}
+
+}  // namespace
+
+PointDistances MeasureDistances(std::span<const Eigen::Vector3d> points, const NurbsSurface& surface,
+                                int threads, int seeds) {
+  const SurfaceCells cells(surface);
+  const FootPointSearch search(cells);
+  PointDistances result;
+  result.signed_distance.resize(points.size());
+  result.feet.resize(points.size());
+  result.offsets.resize(points.size());
+  ParallelFor(points.size(), kChunk, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const FootPoint foot = search.Find(points[i], seeds);
+      const SurfaceCells::Jet1 jet = cells.Evaluate1(foot.u, foot.v);
+      result.offsets[i] = points[i] - jet.position;
+      const bool below = result.offsets[i].dot(jet.du.cross(jet.dv)) < 0;
+      result.signed_distance[i] = (below ? -1 : 1) * std::sqrt(foot.squared_distance);
+      result.feet[i] = {foot.u, foot.v};
+    }
+  });
+  return result;
+}
+
+SurfaceQuality JudgeSurface(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& outlier,
+                            const PointDistances& distances, const TrimmedSurface& surface,
+                            const ScanResolution& scan, const KdTree& tree, int threads) {
+  SurfaceQuality quality;
+  if (points.empty()) return quality;
+  JudgePoints(outlier, distances.signed_distance, &quality);
+  const SampleGrid grid = SampleSurface(surface, threads);
+  std::vector<double> reverse(grid.position.size(), -1);
+  ParallelFor(reverse.size(), kChunk, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (grid.inside[k]) reverse[k] = DistanceToData(tree, outlier, grid.position[k]);
+    }
+  });
+  double area = 0, covered = 0;
+  std::vector<double> inside;
+  for (std::size_t k = 0; k < reverse.size(); ++k) {
+    if (reverse[k] < 0) continue;
+    const double part = grid.area_normal[k].norm();
+    area += part;
+    if (reverse[k] <= 3 * scan.spacing) covered += part;
+    inside.push_back(reverse[k]);
+    quality.reverse_max = std::max(quality.reverse_max, reverse[k]);
+  }
+  quality.surface_samples = static_cast<int>(inside.size());
+  quality.reverse_p95 = Percentile(&inside, 0.95);
+  quality.data_coverage = area > 0 ? covered / area : 0;
+  quality.flipped_normals = CountFlipped(grid);
+  quality.area = Area(surface);
+  quality.local_noise = scan.noise;
+  quality.point_spacing = scan.spacing;
+  return quality;
+}
+
+}  // namespace frond
