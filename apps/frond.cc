@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// frond COMMAND [CONFIG] [--flags]: parses, calls experiments/, and turns exceptions into exit codes.
+#include <gflags/gflags.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <iostream>
+#include <limits>
+#include <new>
+#include <thread>
+
+#include "apps/command_line.h"
+#include "apps/listing.h"
+#include "base/errors.h"
+#include "experiments/convert.h"
+#include "experiments/experiment.h"
+#include "experiments/sweep.h"
+#include "experiments/synth.h"
+#include "experiments/version.h"
+
+DEFINE_string(set, "", "Config values, \"a.b=1; c.d=[2, 3]\"");
+DEFINE_string(out, "", "Where to write; a run directory: runs/NAME");
+DEFINE_bool(overwrite, false, "Replace an existing run directory");
+DEFINE_int32(threads, 0, "Threads; 0: all cores. Results do not depend on it");
+DEFINE_uint64(seed, 0, "Seed instead of the config's");
+DEFINE_bool(quiet, false, "No progress, no summary");
+
+namespace frond {
+namespace {
+
+enum ExitCode { kDone = 0, kUsage = 2, kInput = 3, kFit = 4, kInternal = 5 };
+
+constexpr auto kMaxSeed = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+
+constexpr char kHelp[] = R"(frond: scans of natural objects to exact CAD surfaces
+
+usage: frond COMMAND [ARGUMENTS] [--flags]
+
+  fit CONFIG      fit one scan (or all runs of a config's sweep) and write a run directory
+  check CONFIG    say whether a config is right, without running it
+  list [NAME]     fits, solvers, synthetic scans and formats; or one's options
+  synth KIND      make a synthetic scan with its truth: leaf
+  convert IN OUT  surfaces, clouds and meshes from one format to another
+
+  --set="a.b=1; c.d=[2, 3]"  config values (synth: its options)
+  --out=PATH                 where to write (runs/NAME)
+  --overwrite                replace an existing run directory
+  --threads=N                threads; 0: all cores. Results do not depend on it
+  --seed=N                   seed, instead of the config's
+  --quiet                    no progress, no summary
+  --version, --help
+
+exit codes: 0 done; 2 usage or config; 3 input data or output; 4 the fit failed; 5 internal
+)";
+
+RunFlags Flags() {
+  if (FLAGS_threads < 0 || FLAGS_threads > 1024) throw ConfigError("flag '--threads' must be in [0, 1024]");
+  RunFlags flags;
+  flags.set = FLAGS_set;
+  if (FLAGS_seed > kMaxSeed) throw ConfigError("flag '--seed' must be in [0, 9223372036854775807]");
+  if (!gflags::GetCommandLineFlagInfoOrDie("seed").is_default) flags.seed = FLAGS_seed;
+  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+  flags.threads = FLAGS_threads > 0 ? FLAGS_threads : std::max(1, cores);
+  return flags;
+}
+
+void CheckCount(const std::vector<std::string>& arguments, std::size_t least, std::size_t most,
+                const std::string& usage) {
+  if (arguments.size() - 1 < least || arguments.size() - 1 > most) throw ConfigError("usage: frond " + usage);
+}
+
+void PrintSummary(const std::filesystem::path& folder) {
+  if (FLAGS_quiet) return;
+  const std::filesystem::path file = folder / "metrics.json";
+  if (std::filesystem::exists(file)) {
+    const RunMetrics run = ReadMetricsJson(file);
+    std::cout << run.problem << ": " << run.input.points << " points, rmse " << run.metrics.Number("rmse")
+              << " " << run.unit << ", max " << run.metrics.Number("max") << " " << run.unit << ", area "
+              << run.metrics.Number("area") << " " << run.unit << "^2, " << run.metrics.Number("outliers")
+              << " outliers, " << run.solver.termination << ", " << run.seconds << " s\n";
+  }
+  std::cout << folder.string() << "\n";
+}
+
+void Fit(const std::vector<std::string>& arguments) {
+  CheckCount(arguments, 1, 1, "fit CONFIG [--set=…] [--out=DIR] [--overwrite]");
+  const bool progress = !FLAGS_quiet && isatty(STDERR_FILENO) != 0;
+  PrintSummary(FitConfig(arguments[1], Flags(), FLAGS_out, FLAGS_overwrite, progress));
+}
+
+void Check(const std::vector<std::string>& arguments) {
+  CheckCount(arguments, 1, 1, "check CONFIG [--set=…]");
+  const std::size_t runs = CheckConfig(arguments[1], Flags());
+  if (!FLAGS_quiet) {
+    std::cout << arguments[1] << ": right" << (runs > 1 ? ", " + std::to_string(runs) + " runs" : "") << "\n";
+  }
+}
+
+void List(const std::vector<std::string>& arguments) {
+  CheckCount(arguments, 0, 1, "list [NAME]");
+  PrintList(arguments.size() > 1 ? arguments[1] : "", std::cout);
+}
+
+void Synth(const std::vector<std::string>& arguments) {
+  CheckCount(arguments, 1, 1, "synth KIND [--seed=N] [--set=…] [--out=DIR]; KIND: leaf");
+  const std::filesystem::path folder =
+      Synthesise(arguments[1], FLAGS_set, Flags().seed.value_or(1), FLAGS_out, FLAGS_overwrite);
+  if (!FLAGS_quiet) std::cout << folder.string() << "\n";
+}
+
+void ConvertFiles(const std::vector<std::string>& arguments) {
+  CheckCount(arguments, 2, 2, "convert IN OUT");
+  Convert(arguments[1], arguments[2]);
+}
+
+void Dispatch(const std::vector<std::string>& arguments) {
+  struct Command {
+    const char* name;
+    void (*run)(const std::vector<std::string>&);
+  };
+  constexpr Command kCommands[] = {
+      {"fit", Fit}, {"check", Check}, {"list", List}, {"synth", Synth}, {"convert", ConvertFiles}};
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) {
+    if (arguments[0] == command.name) return command.run(arguments);
+    names.emplace_back(command.name);
+  }
+  const std::string nearest = NearestWord(arguments[0], names);
+  throw ConfigError("unknown command '" + arguments[0] + "'" +
+                    (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)") + "; see frond --help");
+}
+
+int Fail(ExitCode code, const std::string& message) {
+  std::cerr << "frond: " << message << "\n";
+  return code;
+}
+
+int Main(int argc, char** argv) {
+  try {
+    const std::vector<std::string> arguments = ParseFlags(argc, argv);
+    if (gflags::GetCommandLineFlagInfoOrDie("help").current_value == "true") {
+      std::cout << kHelp;
+      return kDone;
+    }
+    if (gflags::GetCommandLineFlagInfoOrDie("version").current_value == "true") {
+      std::cout << VersionText() << "\n";
+      return kDone;
+    }
+    if (arguments.empty()) throw ConfigError("no command; see frond --help");
+    Dispatch(arguments);
+    std::cout.flush();
+    if (!std::cout) return Fail(kInput, "cannot write to standard output");
+    return kDone;
+  } catch (const ConfigError& error) {
+    return Fail(kUsage, error.what());
+  } catch (const InputError& error) {
+    return Fail(kInput, error.what());
+  } catch (const FitError& error) {
+    return Fail(kFit, error.what());
+  } catch (const std::bad_alloc&) {
+    return Fail(kInternal, "out of memory");
+  } catch (const std::exception& error) {
+    return Fail(kInternal, std::string("internal error: ") + error.what());
+  }
+}
+
+}  // namespace
+}  // namespace frond
+
+int main(int argc, char** argv) { return frond::Main(argc, argv); }

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/options.h"
+#include "base/stage_clock.h"
+#include "experiments/run_input.h"
+#include "io/metrics_json.h"
+#include "models/nurbs_surface.h"
+#include "solvers/solver.h"
+
+namespace frond {
+
+// What one fit gives back, in the input's coordinates and unit.
+struct FitOutcome {
+  std::optional<TrimmedSurface> surface;
+  MetricTable metrics;
+  std::optional<SolverReport> report;    // none where no solver was needed
+  std::vector<double> signed_distances;  // by input point
+  std::vector<std::uint8_t> outlier;     // by input point
+  std::vector<StageTime> stages;
+  std::vector<std::string> warnings;
+};
+
+using OptionDefaults = std::vector<std::pair<std::string, OptionValue>>;
+
+// A registered fit: its name in configs (`problem.type`), its options, and how to run it.
+struct FitType {
+  std::string name;
+  std::string help;
+  std::vector<OptionSpec> options;
+  // Options whose default hangs on another one's value; set where the config leaves them out. May be empty.
+  std::function<OptionDefaults(const Options& problem)> dependent_defaults = {};
+  // Defaults of a solver's options that suit this fit with these options.
+  std::function<OptionDefaults(const Options& problem, const std::string& solver)> solver_defaults;
+  // Checks what single options cannot tell; throws ConfigError.
+  std::function<void(const Options& problem)> check;
+  std::function<FitOutcome(const RunInput& input, const Options& problem, const Solver& solver,
+                           const Budget& budget, const SolveContext& context)>
+      run;
+};
+
+// All fits, sorted by name. A new one is one file and one line in fit_type.cc.
+const std::vector<FitType>& FitTypes();
+
+// Throws ConfigError naming the unknown fit and the nearest known one.
+const FitType& FindFitType(const std::string& name);
+
+}  // namespace frond

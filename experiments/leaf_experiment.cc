@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/leaf_experiment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "base/errors.h"
+#include "experiments/sheet_metrics.h"
+#include "models/nurbs_operations.h"
+#include "problems/leaf/leaf_options.h"
+#include "problems/leaf/leaf_paper_fit.h"
+#include "problems/surface/sheet_fit.h"
+
+namespace frond {
+namespace {
+
+std::vector<OptionSpec> Specs() {
+  std::vector<OptionSpec> specs = LeafSpecs();
+  for (OptionSpec& spec : SheetFitSpecs()) specs.push_back(std::move(spec));
+  specs.push_back(
+      {.name = "fit.start",
+       .type = OptionType::kChoice,
+       .default_value = std::string("auto"),
+       .help = "Where the distance fit starts: the paper's surface, or a rectangle (the outline where "
+               "conforming); auto: paper where conforming, else rectangle",
+       .words = {"auto", "paper", "rectangle"}});
+  specs.push_back({.name = "fit.tie_tip",
+                   .type = OptionType::kFlag,
+                   .default_value = true,
+                   .help = "Conforming: the surface's edge at the leaf's tip is one point"});
+  return specs;
+}
+
+// The paper's own net and degrees, for its method.
+OptionDefaults DependentDefaults(const Options& problem) {
+  if (LeafMethodFrom(problem) != LeafMethod::kPaper) return {};
+  return {{"surface.degree", std::vector<double>{2, 2}},
+          {"surface.control_points", std::vector<double>{5, 5}}};
+}
+
+std::array<int, 2> PairOf(const Options& problem, const std::string& name) {
+  const std::vector<int> values = problem.Integers(name);
+  return {values.front(), values.back()};
+}
+
+LeafPaperOptions PaperOptions(const Options& problem) {
+  const auto degree = PairOf(problem, "surface.degree"), net = PairOf(problem, "surface.control_points");
+  return LeafPaperOptionsFrom(problem, {degree[0], degree[1]}, {net[0], net[1]});
+}
+
+// The paper's surface as a start: of the degrees and net asked for, or as many control points as its point
+// set can tell (a row of the ordered kind across, the selected slices along; 5 x 5 where the net is chosen
+// later).
+LeafPaperOptions PaperStartOptions(const Options& problem) {
+  const PointSetOptions set = PointSetOptionsFrom(problem);
+  const std::array<int, 2> most = {set.left + set.right + 3, set.selected};
+  auto degree = PairOf(problem, "surface.degree");
+  std::array<int, 2> net = {5, 5};
+  if (!problem.HoldsWord("surface.control_points")) net = PairOf(problem, "surface.control_points");
+  for (const std::size_t k : {0, 1}) {
+    net[k] = std::min(net[k], most[k]);
+    degree[k] = std::min(degree[k], net[k] - 1);
+  }
+  LeafPaperOptions options = LeafPaperOptionsFrom(problem, {degree[0], degree[1]}, {net[0], net[1]});
+  options.free_weights = false;
+  return options;
+}
+
+void Check(const Options& problem) {
+  if (LeafMethodFrom(problem) == LeafMethod::kPaper) {
+    if (problem.HoldsWord("surface.control_points")) {
+      throw ConfigError("option 'surface.control_points' is auto, which 'method: paper' does not know");
+    }
+    (void)PaperOptions(problem);
+    return;
+  }
+  CheckSheetOptions(problem);
+}
+
+// Both methods refuse such a cloud in the same words, before a step of theirs fails for want of points. Below
+// 10 points there is no leaf at all, as the frame says.
+void CheckPointCount(std::size_t points, int count_u, int count_v) {
+  if (points < 10 || points >= static_cast<std::size_t>(count_u) * static_cast<std::size_t>(count_v)) return;
+  const auto most = std::to_string(static_cast<int>(std::sqrt(static_cast<double>(points))));
+  throw InputError(std::to_string(points) + " usable points cannot hold " + std::to_string(count_u) + " x " +
+                   std::to_string(count_v) + " control points; set surface.control_points to at most " +
+                   most + " x " + most);
+}
+
+FitOutcome RunPaper(const RunInput& input, const Options& problem, const Solver& solver, const Budget& budget,
+                    const SolveContext& context) {
+  const LeafPaperOptions options = PaperOptions(problem);
+  CheckPointCount(input.cloud.points.size(), options.surface.count_u, options.surface.count_v);
+  LeafPaperFit fit = FitLeafAsInPaper(input.cloud.points, options, &solver, budget, context);
+  FitOutcome outcome;
+  outcome.stages = fit.stages;
+  outcome.warnings = fit.warnings;
+  outcome.report = fit.report;
+  StageClock clock;
+  const SheetJudgement judgement = JudgeSheet(input.cloud.points, {fit.surface, {}}, context.threads);
+  clock.End("quality");
+  outcome.stages.push_back(clock.stages().front());
+  SetQuality(judgement.quality, fit.surface, &outcome.metrics);
+  outcome.signed_distances = judgement.distances.signed_distance;
+  outcome.outlier = judgement.outlier;
+  outcome.metrics.Set(
+      "outliers", static_cast<std::int64_t>(std::count(outcome.outlier.begin(), outcome.outlier.end(), 1)));
+  outcome.metrics.Set("margin", std::string("none"));
+  outcome.metrics.Set("test_points", static_cast<std::int64_t>(fit.test_points.size()));
+  outcome.metrics.Set("test_rmse", fit.error.rmse);
+  outcome.metrics.Set("test_max", fit.error.max);
+  outcome.metrics.Set("test_objective", fit.error.objective);
+  outcome.metrics.Set("unweighted_test_rmse", fit.unweighted.rmse);
+  outcome.metrics.Set("unweighted_test_max", fit.unweighted.max);
+  outcome.metrics.Set("unweighted_test_objective", fit.unweighted.objective);
+  outcome.metrics.Set("point_set",
+                      std::string(fit.point_set_kind == PointSetKind::kOrdered ? "ordered" : "unordered"));
+  outcome.metrics.Set("midrib_offset", fit.midrib_offset);
+  outcome.surface = TrimmedSurface{std::move(fit.surface), {}};
+  SetTruth(input, context.threads, &outcome);
+  return outcome;
+}
+
+FitOutcome RunDistance(const RunInput& input, const Options& problem, const Solver& solver,
+                       const Budget& budget, const SolveContext& context) {
+  SheetFitOptions options = SheetFitOptionsFrom(problem);
+  options.tie_tip = problem.Flag("fit.tie_tip");
+  CheckPointCount(input.cloud.points.size(), options.control_points[0], options.control_points[1]);
+  FitOutcome outcome;
+  StageClock clock;
+  const LeafFrame frame = FindLeafFrame(input.cloud.points, LeafFrameOptionsFrom(problem));
+  std::vector<Eigen::Vector3d> local;
+  local.reserve(input.cloud.points.size());
+  for (const auto& point : input.cloud.points) local.push_back(frame.FromInput(point));
+  Eigen::Isometry3d to_input = Eigen::Isometry3d::Identity();
+  to_input.linear() = frame.axes;
+  to_input.translation() = frame.origin;
+  clock.End("frame");
+
+  std::optional<NurbsSurface> start;
+  const std::string& wanted = problem.Text("fit.start");
+  const bool conforming =
+      MarginFor(options, options.control_points) == MarginMode::kConforming && options.control_points[0] > 0;
+  options.given_start_only = wanted == "paper";
+  if (wanted == "paper" || (wanted == "auto" && conforming)) {
+    LeafPaperFit fit = FitLeafAsInPaper(input.cloud.points, PaperStartOptions(problem), nullptr, {}, context);
+    for (std::string& warning : fit.warnings) outcome.warnings.push_back("start: " + std::move(warning));
+    start = Transformed(fit.surface, to_input.inverse());
+    clock.End("paper_start");
+  }
+  outcome.stages = clock.stages();
+  SheetFit fit = FitSheet(local, start, options, solver, budget, context);
+  SetSheetFit(fit, &outcome);
+  outcome.surface = TrimmedSurface{Transformed(fit.surface.surface, to_input), std::move(fit.surface.trim)};
+  SetTruth(input, context.threads, &outcome);
+  return outcome;
+}
+
+FitOutcome Run(const RunInput& input, const Options& problem, const Solver& solver, const Budget& budget,
+               const SolveContext& context) {
+  return LeafMethodFrom(problem) == LeafMethod::kPaper ? RunPaper(input, problem, solver, budget, context)
+                                                       : RunDistance(input, problem, solver, budget, context);
+}
+
+OptionDefaults SolverDefaults(const Options& problem, const std::string& solver) {
+  if (LeafMethodFrom(problem) == LeafMethod::kDistance) {
+    return SheetFitSolverDefaults(solver, SheetFitOptionsFrom(problem));
+  }
+  // MATH.md §2: weights from [0.9, 1.1], one particle at 1; elsewhere a small swarm makes F worse.
+  if (solver == "pso") return {{"start_box", std::vector<double>{0.9, 1.1}}};
+  if (solver == "pso_lm") return {{"pso.start_box", std::vector<double>{0.9, 1.1}}};
+  return {};
+}
+
+}  // namespace
+
+FitType LeafFitType() {
+  return {.name = "leaf",
+          .help =
+              "A leaf's surface in its own frame: the paper's slices and B-spline (with weights by any "
+              "solver), or the distance fit",
+          .options = Specs(),
+          .dependent_defaults = DependentDefaults,
+          .solver_defaults = SolverDefaults,
+          .check = Check,
+          .run = Run};
+}
+
+}  // namespace frond

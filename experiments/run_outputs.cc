@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <sstream>
+
+#include "experiments/experiment.h"
+#include "io/cad_file.h"
+#include "io/file_bytes.h"
+#include "io/mesh_file.h"
+#include "io/run_directory.h"
+#include "models/tessellation.h"
+
+namespace frond {
+namespace {
+
+constexpr int kSegmentsPerSpan = 4;
+
+void WriteSurfaces(const Experiment& experiment, const RunResult& result, const RunDirectory& run) {
+  if (!result.outcome.surface) return;
+  const SurfaceDocument document{*result.outcome.surface, result.input.unit};
+  std::optional<SurfaceMesh> mesh;
+  for (const std::string& format : experiment.formats) {
+    if (format == "json") {
+      WriteSurfaceJson(run.File("surface.json"), document);
+    } else if (format == "step") {
+      WriteStep(run.File("surface.step"), document);
+    } else if (format == "iges") {
+      WriteIges(run.File("surface.igs"), document);
+    } else {
+      if (!mesh) mesh = Tessellate(document.trimmed, kSegmentsPerSpan);
+      WriteMesh(run.File("surface." + format), *mesh, document.unit);
+    }
+  }
+}
+
+void WriteOutliers(const RunResult& result, const std::filesystem::path& path) {
+  const std::vector<std::string> columns = {"index", "x", "y", "z", "signed_distance"};
+  std::vector<std::vector<MetricValue>> rows;
+  for (std::size_t i = 0; i < result.outcome.outlier.size(); ++i) {
+    if (!result.outcome.outlier[i]) continue;
+    const Eigen::Vector3d& point = result.input.cloud.points[i];
+    rows.push_back(
+        {static_cast<std::int64_t>(i), point.x(), point.y(), point.z(), result.outcome.signed_distances[i]});
+  }
+  WriteCsv(path, columns, rows);
+}
+
+std::string LogText(const Experiment& experiment, const RunResult& result) {
+  std::ostringstream log;
+  log << "run " << experiment.name << ": " << experiment.problem_type << " by " << result.metrics.solver.name
+      << "\n"
+      << "input " << result.input.description << ": " << result.input.report.rows << " rows, "
+      << result.input.report.dropped_not_finite << " not finite, " << result.input.report.merged_duplicates
+      << " duplicates, " << result.input.cloud.points.size() << " points used\n";
+  for (const StageTime& stage : result.outcome.stages) {
+    log << "stage " << stage.name << ": " << stage.seconds << " s\n";
+  }
+  if (result.outcome.report) {
+    log << "solver " << result.metrics.solver.termination << ": " << result.outcome.report->message << "\n";
+  }
+  for (const std::string& warning : result.outcome.warnings) log << "warning: " << warning << "\n";
+  return log.str();
+}
+
+}  // namespace
+
+void WriteRun(const Experiment& experiment, const RunResult& result, const std::filesystem::path& target,
+              bool overwrite) {
+  RunDirectory run(target, overwrite);
+  WriteFileBytes(run.File("config.yaml"), experiment.Resolved().Yaml());
+  WriteMetricsJson(run.File("metrics.json"), result.metrics);
+  std::vector<TraceRow> trace;
+  if (result.outcome.report) {
+    for (const TracePoint& point : result.outcome.report->trace) {
+      trace.push_back({point.evaluations, point.seconds, point.best_objective});
+    }
+  }
+  WriteTrace(run.File("trace.csv"), trace);
+  WriteSurfaces(experiment, result, run);
+  WritePointCloud(run.File("deviation.ply"), result.input.cloud, {result.outcome.signed_distances, {}});
+  WriteOutliers(result, run.File("outliers.csv"));
+  WriteFileBytes(run.File("log.txt"), LogText(experiment, result));
+  run.Commit();
+}
+
+}  // namespace frond

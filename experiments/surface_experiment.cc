@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "experiments/surface_experiment.h"
+
+#include "base/errors.h"
+#include "experiments/sheet_metrics.h"
+#include "models/nurbs_operations.h"
+#include "problems/surface/principal_axes.h"
+#include "problems/surface/sheet_fit.h"
+
+namespace frond {
+namespace {
+
+FitOutcome RunSurface(const RunInput& input, const Options& problem, const Solver& solver,
+                      const Budget& budget, const SolveContext& context) {
+  StageClock clock;
+  const SheetFitOptions options = SheetFitOptionsFrom(problem);
+  const std::vector<Eigen::Vector3d>& points = input.cloud.points;
+  const PrincipalAxes axes = FindPrincipalAxes(points, std::vector<std::uint8_t>(points.size(), 0));
+  std::vector<Eigen::Vector3d> local;
+  local.reserve(points.size());
+  Eigen::Matrix3d rotation = axes.axes;
+  if (rotation.determinant() < 0) rotation.col(2) *= -1;
+  for (const auto& point : points) local.push_back(rotation.transpose() * (point - axes.origin));
+  FitOutcome outcome;
+  clock.End("frame");
+  outcome.stages = clock.stages();
+  SheetFit fit = FitSheet(local, std::nullopt, options, solver, budget, context);
+  SetSheetFit(fit, &outcome);
+  Eigen::Isometry3d to_input = Eigen::Isometry3d::Identity();
+  to_input.linear() = rotation;
+  to_input.translation() = axes.origin;
+  outcome.surface = TrimmedSurface{Transformed(fit.surface.surface, to_input), std::move(fit.surface.trim)};
+  SetTruth(input, context.threads, &outcome);
+  return outcome;
+}
+
+}  // namespace
+
+FitType SurfaceFitType() {
+  return {.name = "surface",
+          .help = "A NURBS surface over an open sheet of points, by least orthogonal distances",
+          .options = SheetFitSpecs(),
+          .solver_defaults =
+              [](const Options& problem, const std::string& solver) {
+                return SheetFitSolverDefaults(solver, SheetFitOptionsFrom(problem));
+              },
+          .check = CheckSheetOptions,
+          .run = RunSurface};
+}
+
+}  // namespace frond
