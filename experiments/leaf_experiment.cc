@@ -134,6 +134,8 @@ FitOutcome RunDistance(const RunInput& input, const Options& problem, const Solv
   std::vector<Eigen::Vector3d> local;
   local.reserve(input.cloud.points.size());
   for (const auto& point : input.cloud.points) local.push_back(frame.FromInput(point));
+  std::vector<std::uint8_t> stray(local.size(), 0);
+  for (const std::size_t i : frame.strays) stray[i] = 1;
   Eigen::Isometry3d to_input = Eigen::Isometry3d::Identity();
   to_input.linear() = frame.axes;
   to_input.translation() = frame.origin;
@@ -151,7 +153,7 @@ FitOutcome RunDistance(const RunInput& input, const Options& problem, const Solv
     clock.End("paper_start");
   }
   outcome.stages = clock.stages();
-  SheetFit fit = FitSheet(local, start, options, solver, budget, context);
+  SheetFit fit = FitSheet(local, stray, start, options, solver, budget, context);
   SetSheetFit(fit, &outcome);
   outcome.surface = TrimmedSurface{Transformed(fit.surface.surface, to_input), std::move(fit.surface.trim)};
   SetTruth(input, context.threads, &outcome);

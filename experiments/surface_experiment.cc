@@ -4,6 +4,7 @@
 #include "base/errors.h"
 #include "experiments/sheet_metrics.h"
 #include "models/nurbs_operations.h"
+#include "problems/surface/outliers.h"
 #include "problems/surface/principal_axes.h"
 #include "problems/surface/sheet_fit.h"
 
@@ -15,19 +16,25 @@ FitOutcome RunSurface(const RunInput& input, const Options& problem, const Solve
   StageClock clock;
   const SheetFitOptions options = SheetFitOptionsFrom(problem);
   const std::vector<Eigen::Vector3d>& points = input.cloud.points;
-  const PrincipalAxes axes = FindPrincipalAxes(points, std::vector<std::uint8_t>(points.size(), 0));
-  std::vector<Eigen::Vector3d> local;
-  local.reserve(points.size());
-  Eigen::Matrix3d rotation = axes.axes;
-  if (rotation.determinant() < 0) rotation.col(2) *= -1;
-  for (const auto& point : points) local.push_back(rotation.transpose() * (point - axes.origin));
+  // Strays are found in the axes of all points and have no say in the final ones.
+  const auto in_axes = [&](const PrincipalAxes& axes) {
+    std::vector<Eigen::Vector3d> local;
+    local.reserve(points.size());
+    for (const auto& point : points) local.push_back(axes.axes.transpose() * (point - axes.origin));
+    return local;
+  };
+  std::vector<std::uint8_t> stray(points.size(), 0);
+  stray = StrayPoints(in_axes(FindPrincipalAxes(points, stray)));
+  PrincipalAxes axes = FindPrincipalAxes(points, stray);
+  if (axes.axes.determinant() < 0) axes.axes.col(2) *= -1;
+  const std::vector<Eigen::Vector3d> local = in_axes(axes);
   FitOutcome outcome;
   clock.End("frame");
   outcome.stages = clock.stages();
-  SheetFit fit = FitSheet(local, std::nullopt, options, solver, budget, context);
+  SheetFit fit = FitSheet(local, stray, std::nullopt, options, solver, budget, context);
   SetSheetFit(fit, &outcome);
   Eigen::Isometry3d to_input = Eigen::Isometry3d::Identity();
-  to_input.linear() = rotation;
+  to_input.linear() = axes.axes;
   to_input.translation() = axes.origin;
   outcome.surface = TrimmedSurface{Transformed(fit.surface.surface, to_input), std::move(fit.surface.trim)};
   SetTruth(input, context.threads, &outcome);

@@ -113,7 +113,8 @@ void DistanceState::FindFeet() {
     for (std::size_t i = begin; i < end; ++i) {
       const FootPoint foot =
           RefineFootPoint(cells_, shared_.points[i], accepted_[i][0], accepted_[i][1], foot_options_);
-      feet_[i] = {foot.u, foot.v, foot.at_edge_u, foot.at_edge_v};
+      feet_[i] = {foot.u, foot.v, static_cast<std::uint32_t>(cells_.CellOf(foot.u, foot.v)), foot.at_edge_u,
+                  foot.at_edge_v};
       sums.rho += CostOf(foot.squared_distance, foot.at_edge_u, foot.at_edge_v).rho;
       sums.squared += foot.squared_distance;
       sums.max = std::max(sums.max, foot.squared_distance);
@@ -130,17 +131,16 @@ void DistanceState::FindFeet() {
 
 void DistanceState::GroupByCell() {
   const std::size_t n = feet_.size(), total = n + margin_.size();
-  std::vector<std::uint32_t> cell_of(total);
+  const auto cell_of = [&](std::size_t i) {
+    return i < n ? feet_[i].cell
+                 : static_cast<std::uint32_t>(cells_.CellOf(margin_[i - n].u, margin_[i - n].v));
+  };
   cell_begin_.assign(cell_blocks_.size() + 1, 0);
-  for (std::size_t i = 0; i < total; ++i) {
-    const double u = i < n ? feet_[i].u : margin_[i - n].u, v = i < n ? feet_[i].v : margin_[i - n].v;
-    cell_of[i] = static_cast<std::uint32_t>(cells_.CellOf(u, v));
-    ++cell_begin_[cell_of[i] + 1];
-  }
+  for (std::size_t i = 0; i < total; ++i) ++cell_begin_[cell_of(i) + 1];
   for (std::size_t c = 1; c < cell_begin_.size(); ++c) cell_begin_[c] += cell_begin_[c - 1];
   std::vector<std::size_t> next(cell_begin_.begin(), cell_begin_.end() - 1);
   order_.resize(total);
-  for (std::size_t i = 0; i < total; ++i) order_[next[cell_of[i]]++] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < total; ++i) order_[next[cell_of(i)]++] = static_cast<std::uint32_t>(i);
 }
 
 void DistanceState::CompressCells() {

@@ -53,6 +53,7 @@ class DistanceState : public ceres::EvaluationCallback {
  private:
   struct Foot {
     double u, v;
+    std::uint32_t cell;
     bool at_edge_u, at_edge_v;
   };
   // A point's cost ρ(d²) and the weights of its rows.

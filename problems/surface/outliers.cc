@@ -35,6 +35,7 @@ struct CubeGrid {
 
 CubeGrid FillCubes(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& corner, double side) {
   CubeGrid grid;
+  grid.place.reserve(points.size() / 4);
   grid.cube_of.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3i cube = ((points[i] - corner) / side).array().floor().cast<int>();
@@ -82,20 +83,44 @@ std::uint32_t PointsAround(const CubeGrid& grid, const Eigen::Vector3i& cube) {
   return sum;
 }
 
-// Cubes with fewer than four points, or a tenth of what is usual where points are, in and round them.
+// Cubes with fewer than four points, or a tenth of what is usual, in and round them. What is usual is the
+// median over some of the cubes with more than one point.
 std::vector<std::uint8_t> SparseCubes(const CubeGrid& grid) {
-  std::vector<std::uint32_t> around;
-  around.reserve(grid.cubes.size());
-  for (const auto& cube : grid.cubes) around.push_back(PointsAround(grid, cube));
-  std::vector<std::uint32_t> by_point;
-  by_point.reserve(grid.cube_of.size());
-  for (const std::uint32_t cube : grid.cube_of) by_point.push_back(around[cube]);
-  const auto middle = by_point.begin() + static_cast<std::ptrdiff_t>(by_point.size() / 2);
-  std::nth_element(by_point.begin(), middle, by_point.end());
-  const std::uint32_t least = std::max<std::uint32_t>(4, *middle / 10);
+  std::vector<std::uint32_t> usual;
+  const std::size_t stride = std::max<std::size_t>(1, grid.cubes.size() / 4000);
+  for (std::size_t c = 0; c < grid.cubes.size(); c += stride) {
+    if (grid.members[c] > 1) usual.push_back(PointsAround(grid, grid.cubes[c]));
+  }
+  std::uint32_t least = 4;
+  if (!usual.empty()) {
+    const auto middle = usual.begin() + static_cast<std::ptrdiff_t>(usual.size() / 2);
+    std::nth_element(usual.begin(), middle, usual.end());
+    least = std::max(least, *middle / 10);
+  }
   std::vector<std::uint8_t> sparse;
-  for (const std::uint32_t count : around) sparse.push_back(count < least);
+  for (std::size_t c = 0; c < grid.cubes.size(); ++c) {
+    sparse.push_back(grid.members[c] < least && PointsAround(grid, grid.cubes[c]) < least);
+  }
   return sparse;
+}
+
+// The same points in cubes of twice the side, without those of sparse cubes; cube_of is by cube of `grid`.
+CubeGrid Paired(const CubeGrid& grid, const std::vector<std::uint8_t>& sparse) {
+  CubeGrid paired;
+  paired.cube_of.resize(grid.cubes.size());
+  for (std::size_t c = 0; c < grid.cubes.size(); ++c) {
+    if (sparse[c]) continue;
+    const Eigen::Vector3i cube = grid.cubes[c].unaryExpr([](int x) { return x / 2; });  // cubes count from 0
+    const auto [entry, added] =
+        paired.place.emplace(CubeGrid::Key(cube), static_cast<std::uint32_t>(paired.cubes.size()));
+    if (added) {
+      paired.cubes.push_back(cube);
+      paired.members.push_back(0);
+    }
+    paired.cube_of[c] = entry->second;
+    paired.members[entry->second] += grid.members[c];
+  }
+  return paired;
 }
 
 // The number of the connected part that each cube belongs to, and how many points each part has.
@@ -158,28 +183,23 @@ double PointSpacing(std::span<const Eigen::Vector3d> points, const KdTree& tree)
 }
 
 std::vector<std::uint8_t> StrayPoints(std::span<const Eigen::Vector3d> points) {
-  constexpr double kDense = 2.5, kReach = 5;  // sides of the cubes in spacings
+  constexpr double kSide = 2.5;  // of the cubes, in spacings
   std::vector<std::uint8_t> stray(points.size(), 0);
   Eigen::AlignedBox3d box;
   for (const auto& point : points) box.extend(point);
   const double extent = points.empty() ? 0 : box.sizes().maxCoeff();
   if (points.size() < 10 || !(extent > 0)) return stray;
   const double spacing = std::max(SheetSpacing(points, box), extent / 0x1p21);  // at most 2^20 cubes a side
-  const CubeGrid dense = FillCubes(points, box.min(), kDense * spacing);
+  const CubeGrid dense = FillCubes(points, box.min(), kSide * spacing);
   const std::vector<std::uint8_t> sparse = SparseCubes(dense);
-  std::vector<Eigen::Vector3d> kept;
-  std::vector<std::size_t> index;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    stray[i] = sparse[dense.cube_of[i]];
-    if (stray[i]) continue;
-    kept.push_back(points[i]);
-    index.push_back(i);
-  }
-  const CubeGrid grid = FillCubes(kept, box.min(), kReach * spacing);
+  const CubeGrid pairs = Paired(dense, sparse);
   std::vector<std::size_t> sizes;
-  const std::vector<int> part = ConnectedParts(grid, &sizes);
+  const std::vector<int> part = ConnectedParts(pairs, &sizes);
   const int largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-  for (std::size_t k = 0; k < kept.size(); ++k) stray[index[k]] = part[grid.cube_of[k]] != largest;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::uint32_t cube = dense.cube_of[i];
+    stray[i] = sparse[cube] || part[pairs.cube_of[cube]] != largest;
+  }
   return stray;
 }
 

@@ -319,9 +319,9 @@ void CheckInput(const Points& points, std::array<int, 2> net) {
 
 }  // namespace
 
-SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::optional<NurbsSurface>& start,
-                  const SheetFitOptions& options, const Solver& solver, const Budget& budget,
-                  const SolveContext& context) {
+SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray,
+                  const std::optional<NurbsSurface>& start, const SheetFitOptions& options,
+                  const Solver& solver, const Budget& budget, const SolveContext& context) {
   StageClock clock;
   const std::vector<std::uint32_t> order = SpatialOrder(points);
   Points sorted;
@@ -333,7 +333,9 @@ SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::optional<N
   const KdTree tree(sorted);
   ScanResolution scan{.spacing = PointSpacing(sorted, tree)};
   std::vector<std::uint8_t> outlier(sorted.size(), 0);
-  if (options.outlier_threshold > 0) outlier = StrayPoints(sorted);
+  if (options.outlier_threshold > 0 && !stray.empty()) {
+    for (std::size_t i = 0; i < sorted.size(); ++i) outlier[i] = stray[order[i]];
+  }
   scan.noise = LocalNoise(sorted, outlier, tree);
   Points used;
   std::vector<std::uint32_t> used_index;

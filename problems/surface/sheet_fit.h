@@ -73,17 +73,19 @@ struct SheetFit {
 
 // Fits an open sheet given in a frame whose x is its long direction (v of the surface), y across (u), z up:
 //
-//   spatial order → stray points → start (given, or a rectangle over x and y) → stages of the distance fit on
+//   spatial order → start (given, or a rectangle over x and y) → stages of the distance fit on
 //   a subset, fairness falling → outliers by the first fit → the same on all points → global distances →
 //   trim.
 //
-// `start`: a surface in the same frame, of any net; another net's feet give the parameters. The first stage
-// runs from it and from the cloud's own start, and the better goes on, unless given_start_only. `solver` does
-// the work of each stage within the shared budget. Throws InputError if there are fewer points than control
-// points or the points have no extent in x or y; FitError if a stage fails.
-SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::optional<NurbsSurface>& start,
-                  const SheetFitOptions& options, const Solver& solver, const Budget& budget,
-                  const SolveContext& context);
+// `stray`: 1 for points that are not of the sheet (StrayPoints), by point, or empty: they are outliers from
+// the start, unless outlier_threshold is 0. `start`: a surface in the same frame, of any net; another net's
+// feet give the parameters. The first stage runs from it and from the cloud's own start, and the better goes
+// on, unless given_start_only. `solver` does the work of each stage within the shared budget. Throws
+// InputError if there are fewer points than control points or the points have no extent in x or y; FitError
+// if a stage fails.
+SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray,
+                  const std::optional<NurbsSurface>& start, const SheetFitOptions& options,
+                  const Solver& solver, const Budget& budget, const SolveContext& context);
 
 // A surface that was not fitted by FitSheet, judged as FitSheet judges its own. By input point.
 struct SheetJudgement {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "problems/leaf/leaf_frame.h"
+#include "problems/surface/outliers.h"
 #include "problems/surface/surface_quality.h"
 
 namespace frond {
@@ -38,7 +39,8 @@ std::unique_ptr<Solver> SheetSolver(const SheetFitOptions& options) {
 }
 
 SheetFit FitLeaf(std::span<const Eigen::Vector3d> points, const SheetFitOptions& options, int threads) {
-  return FitSheet(points, std::nullopt, options, *SheetSolver(options), {}, {.threads = threads, .seed = 1});
+  return FitSheet(points, StrayPoints(points), std::nullopt, options, *SheetSolver(options), {},
+                  {.threads = threads, .seed = 1});
 }
 
 TruthErrors ErrorsAgainst(std::span<const Eigen::Vector3d> truth, const NurbsSurface& surface, int threads) {
