@@ -12,6 +12,7 @@
 #include "base/errors.h"
 #include "base/random.h"
 #include "problems/leaf/leaf_frame.h"
+#include "problems/surface/outliers.h"
 #include "tests/problems/surface/leaf_case.h"
 #include "tests/problems/surface/wavy_sheet.h"
 
@@ -122,8 +123,8 @@ TEST(SheetFit, Budget_IsHeldOverAllStages) {
   const Standard& standard = TheStandard();
   Budget budget;
   budget.max_evaluations = standard.fit.report.evaluations / 3;
-  const SheetFit fit = FitSheet(standard.leaf.points, {}, std::nullopt, standard.options,
-                                *SheetSolver(standard.options), budget, {});
+  const SheetFit fit = FitSheet(standard.leaf.points, StrayPoints(standard.leaf.points), std::nullopt,
+                                standard.options, *SheetSolver(standard.options), budget, {});
   EXPECT_EQ(fit.report.termination, Termination::kEvaluationBudget);
   // A stage's start and last step are counted whole.
   EXPECT_LT(fit.report.evaluations, standard.fit.report.evaluations);
@@ -135,8 +136,9 @@ TEST(SheetFit, FromAGivenStart_KeepsItsFrameAndImprovesIt) {
   coarse.control_points = {6, 8};
   coarse.margin = MarginMode::kTrim;
   const SheetFit start = FitLeaf(standard.leaf.points, coarse);
-  const SheetFit fit = FitSheet(standard.leaf.points, {}, start.surface.surface, standard.options,
-                                *SheetSolver(standard.options), {}, {});
+  const SheetFit fit =
+      FitSheet(standard.leaf.points, StrayPoints(standard.leaf.points), start.surface.surface,
+               standard.options, *SheetSolver(standard.options), {}, {});
   EXPECT_LT(fit.quality.inlier_rmse, start.quality.inlier_rmse);
   EXPECT_LT(fit.quality.inlier_rmse, 1.05 * standard.fit.quality.inlier_rmse);
   EXPECT_EQ(fit.quality.flipped_normals, 0);
