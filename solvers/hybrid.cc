@@ -18,7 +18,8 @@ namespace {
 Budget Share(const Budget& budget, double share) {
   Budget part = budget;
   if (budget.max_evaluations != std::numeric_limits<std::int64_t>::max()) {
-    part.max_evaluations = std::llround(share * static_cast<double>(budget.max_evaluations));
+    const double evaluations = share * static_cast<double>(budget.max_evaluations);
+    part.max_evaluations = std::max<std::int64_t>(1, std::llround(evaluations));
   }
   part.max_seconds = share * budget.max_seconds;
   return part;

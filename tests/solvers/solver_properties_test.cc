@@ -76,7 +76,7 @@ TEST_P(EverySolver, Report_HoldsTheObjectiveOfItsX) {
 }
 
 TEST_P(EverySolver, Bounds_AreRespected) {
-  if (!TakesBounds()) GTEST_SKIP() << "refuses bounds: ceres_solvers_test.cc";
+  if (!TakesBounds()) return;  // that they are refused then: ceres_solvers_test.cc
   // The minimum (1, 1) lies outside; every evaluation and the result stay inside.
   class Watched final : public RosenbrockFit {
    public:
