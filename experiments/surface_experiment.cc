@@ -26,7 +26,13 @@ FitOutcome RunSurface(const RunInput& input, const Options& problem, const Solve
   std::vector<std::uint8_t> stray(points.size(), 0);
   stray = StrayPoints(in_axes(FindPrincipalAxes(points, stray)));
   PrincipalAxes axes = FindPrincipalAxes(points, stray);
-  if (axes.axes.determinant() < 0) axes.axes.col(2) *= -1;
+  // Signs by the skewness, so that the same sheet in any pose is fitted in the same frame.
+  Eigen::Vector3d skewness = Eigen::Vector3d::Zero();
+  for (const auto& point : in_axes(axes)) skewness += point.array().cube().matrix();
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    if (skewness[axis] < 0) axes.axes.col(axis) *= -1;
+  }
+  axes.axes.col(2) = axes.axes.col(0).cross(axes.axes.col(1));
   const std::vector<Eigen::Vector3d> local = in_axes(axes);
   FitOutcome outcome;
   clock.End("frame");

@@ -33,12 +33,14 @@ struct CubeGrid {
   }
 };
 
-CubeGrid FillCubes(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& corner, double side) {
+// A cube has the origin as its centre and the next ones stand round it, so that turning a coordinate's sign
+// turns their numbers' signs.
+CubeGrid FillCubes(std::span<const Eigen::Vector3d> points, double side) {
   CubeGrid grid;
   grid.place.reserve(points.size() / 4);
   grid.cube_of.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3i cube = ((points[i] - corner) / side).array().floor().cast<int>();
+    const Eigen::Vector3i cube = (points[i] / side).array().round().cast<int>();
     const auto [entry, added] =
         grid.place.emplace(CubeGrid::Key(cube), static_cast<std::uint32_t>(grid.cubes.size()));
     if (added) {
@@ -51,25 +53,23 @@ CubeGrid FillCubes(std::span<const Eigen::Vector3d> points, const Eigen::Vector3
   return grid;
 }
 
-// √(area / points), the area from the number of cubes filled, of a side that holds eight points on average.
-// Cubes with one point are left out as far outliers may be.
-double SheetSpacing(std::span<const Eigen::Vector3d> points, const Eigen::AlignedBox3d& box) {
-  std::vector<Eigen::Vector3d> some;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / 20000);
-  for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
-  for (double side = box.sizes().maxCoeff() / 1024;; side *= 1.5) {
-    const CubeGrid grid = FillCubes(some, box.min(), side);
-    std::size_t filled = 0, within = 0;
-    for (const std::uint32_t members : grid.members) {
-      if (members < 2) continue;
-      ++filled;
-      within += members;
-    }
-    if (2 * within >= some.size() && within >= 8 * filled) {
-      return side * std::sqrt(static_cast<double>(filled) / static_cast<double>(points.size()));
-    }
-    if (side > box.sizes().maxCoeff()) return side;
+// √(area / points) within a factor of two, whatever far outliers do: the area is that of an ellipse in the
+// rectangle of the two longest ranges, each from the 5 % to the 95 % quantile of a coordinate.
+double SheetSpacing(std::span<const Eigen::Vector3d> points) {
+  std::array<double, 3> range;
+  std::vector<double> values(points.size());
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i][axis];
+    const auto quantile = [&](double share) {
+      const auto k = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+      std::nth_element(values.begin(), values.begin() + k, values.end());
+      return values[static_cast<std::size_t>(k)];
+    };
+    const double high = quantile(0.95), low = quantile(0.05);
+    range[static_cast<std::size_t>(axis)] = (high - low) / 0.9;
   }
+  std::sort(range.begin(), range.end());
+  return std::sqrt(M_PI / 4 * range[1] * range[2] / static_cast<double>(points.size()));
 }
 
 // The points in a cube and the 26 round it.
@@ -87,9 +87,10 @@ std::uint32_t PointsAround(const CubeGrid& grid, const Eigen::Vector3i& cube) {
 // median over some of the cubes with more than one point.
 std::vector<std::uint8_t> SparseCubes(const CubeGrid& grid) {
   std::vector<std::uint32_t> usual;
-  const std::size_t stride = std::max<std::size_t>(1, grid.cubes.size() / 4000);
-  for (std::size_t c = 0; c < grid.cubes.size(); c += stride) {
-    if (grid.members[c] > 1) usual.push_back(PointsAround(grid, grid.cubes[c]));
+  for (std::size_t c = 0; c < grid.cubes.size(); ++c) {
+    const bool drawn = CubeGrid::Key(grid.cubes[c].cwiseAbs()) % 16 == 0;
+    if (grid.members[c] > 1 && (drawn || grid.cubes.size() < 4000))
+      usual.push_back(PointsAround(grid, grid.cubes[c]));
   }
   std::uint32_t least = 4;
   if (!usual.empty()) {
@@ -110,7 +111,7 @@ CubeGrid Paired(const CubeGrid& grid, const std::vector<std::uint8_t>& sparse) {
   paired.cube_of.resize(grid.cubes.size());
   for (std::size_t c = 0; c < grid.cubes.size(); ++c) {
     if (sparse[c]) continue;
-    const Eigen::Vector3i cube = grid.cubes[c].unaryExpr([](int x) { return x / 2; });  // cubes count from 0
+    const Eigen::Vector3i cube = grid.cubes[c].unaryExpr([](int x) { return x / 2; });  // symmetric about 0
     const auto [entry, added] =
         paired.place.emplace(CubeGrid::Key(cube), static_cast<std::uint32_t>(paired.cubes.size()));
     if (added) {
@@ -189,13 +190,18 @@ std::vector<std::uint8_t> StrayPoints(std::span<const Eigen::Vector3d> points) {
   for (const auto& point : points) box.extend(point);
   const double extent = points.empty() ? 0 : box.sizes().maxCoeff();
   if (points.size() < 10 || !(extent > 0)) return stray;
-  const double spacing = std::max(SheetSpacing(points, box), extent / 0x1p21);  // at most 2^20 cubes a side
-  const CubeGrid dense = FillCubes(points, box.min(), kSide * spacing);
+  double farthest = 0;
+  for (const auto& point : points) farthest = std::max(farthest, point.cwiseAbs().maxCoeff());
+  const double side =
+      std::max(kSide * SheetSpacing(points), farthest / 0x1p19);  // 21 bits hold a cube's number
+  const CubeGrid dense = FillCubes(points, side);
   const std::vector<std::uint8_t> sparse = SparseCubes(dense);
   const CubeGrid pairs = Paired(dense, sparse);
   std::vector<std::size_t> sizes;
   const std::vector<int> part = ConnectedParts(pairs, &sizes);
-  const int largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  const auto main_part = std::max_element(sizes.begin(), sizes.end());
+  if (main_part == sizes.end() || 2 * *main_part < points.size()) return stray;
+  const int largest = static_cast<int>(main_part - sizes.begin());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint32_t cube = dense.cube_of[i];
     stray[i] = sparse[cube] || part[pairs.cube_of[cube]] != largest;

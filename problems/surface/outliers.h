@@ -16,9 +16,10 @@ double PointSpacing(std::span<const Eigen::Vector3d> points, const KdTree& tree)
 
 // Points that are not of the sheet, as 1: those in sparse places (a tenth of the usual number of points
 // within about four spacings, or fewer than four), and of the rest those not connected with the largest part
-// (cubes of side 5 spacings that touch are connected). The spacing follows from the number of cubes that the
-// points fill. The cubes stand along the coordinate axes: for an answer that does not depend on the pose give
-// points in their principal axes. Fewer than 10 points: none. Linear in time and memory.
+// (cubes of side 5 spacings that touch are connected). The cubes stand along the coordinate axes,
+// symmetrically about the origin: for an answer that does not depend on the pose give points in their
+// principal axes about their mean, with any signs. None where that part is less than half of the points, or
+// they are fewer than 10. Linear in time and memory.
 std::vector<std::uint8_t> StrayPoints(std::span<const Eigen::Vector3d> points);
 
 // Points that stand out from their surroundings, as 1: |o_i − median of the 12 nearest points' o| > threshold

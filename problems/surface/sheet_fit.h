@@ -87,13 +87,13 @@ SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::vector<std
                   const std::optional<NurbsSurface>& start, const SheetFitOptions& options,
                   const Solver& solver, const Budget& budget, const SolveContext& context);
 
-// A surface that was not fitted by FitSheet, judged as FitSheet judges its own. By input point.
+// A surface that was not fitted by FitSheet, judged as FitSheet judges its own; points (in a frame, with
+// their strays) as there. Distances by input point.
 struct SheetJudgement {
   SurfaceQuality quality;
   PointDistances distances;
-  std::vector<std::uint8_t> outlier;  // stray points: not connected with the scan
 };
-SheetJudgement JudgeSheet(std::span<const Eigen::Vector3d> points, const TrimmedSurface& surface,
-                          int threads);
+SheetJudgement JudgeSheet(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray,
+                          const TrimmedSurface& surface, int threads);
 
 }  // namespace frond

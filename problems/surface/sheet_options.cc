@@ -129,6 +129,9 @@ SheetFitOptions SheetFitOptionsFrom(const Options& options) {
 
 void CheckSheetOptions(const Options& options) {
   const SheetFitOptions fit = SheetFitOptionsFrom(options);
+  if (fit.peak_emphasis > 0 && fit.loss != "none") {
+    throw ConfigError("option 'fit.peak_emphasis' does not go with 'fit.loss': set one of them");
+  }
   for (std::size_t k = 0; k < 2 && fit.control_points[0] > 0; ++k) {
     if (fit.control_points[k] > fit.degree[k]) continue;
     throw ConfigError("option 'surface.control_points' is " + std::to_string(fit.control_points[k]) +
@@ -146,14 +149,15 @@ MarginMode MarginFor(const SheetFitOptions& options, std::array<int, 2> control_
 
 std::vector<std::pair<std::string, OptionValue>> SheetFitSolverDefaults(const std::string& solver,
                                                                         const SheetFitOptions& options) {
-  if (solver != "lm" && solver != "dogleg") return {};
+  const std::string prefix = solver == "pso_lm" ? "lm." : "";
+  if (solver != "lm" && solver != "dogleg" && solver != "pso_lm") return {};
   const bool conforming = MarginFor(options, options.control_points) == MarginMode::kConforming;
-  return {{"max_iterations", std::int64_t{conforming ? 25 : 4}},  // of each stage
-          {"initial_trust_region_radius", 1.0},                   // MATH.md §1: few steps are rejected then
-          {"linear_solver", std::string("sparse_normal_cholesky")},
-          {"function_tolerance", 1e-5},
-          {"gradient_tolerance", 0.0},
-          {"parameter_tolerance", 1e-12}};
+  return {{prefix + "max_iterations", std::int64_t{conforming ? 25 : 4}},  // of each stage
+          {prefix + "initial_trust_region_radius", 1.0},  // MATH.md §1: few steps are rejected then
+          {prefix + "linear_solver", std::string("sparse_normal_cholesky")},
+          {prefix + "function_tolerance", 1e-5},
+          {prefix + "gradient_tolerance", 0.0},
+          {prefix + "parameter_tolerance", 1e-12}};
 }
 
 }  // namespace frond

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/parallel.h"
 #include "models/foot_point_search.h"
@@ -56,29 +57,62 @@ SampleGrid SampleSurface(const TrimmedSurface& trimmed, int threads) {
   return grid;
 }
 
-// Samples inside whose normal turns against the mean over its 9 × 9 surroundings.
-int CountFlipped(const SampleGrid& grid) {
-  constexpr int kReach = 4;
-  int flipped = 0;
+// The part of the grid that each sample belongs to: neighbours whose normals are less than 90° apart belong
+// together. −1 where there is no normal. `areas`: of each part's samples inside the trim. Samples outside it
+// count for the connection, so that narrow places do not part a surface.
+std::vector<int> PartsByNormal(const SampleGrid& grid, std::vector<double>* areas) {
   const auto at = [&](int i, int j) { return static_cast<std::size_t>(i * grid.nv + j); };
-  // Sums over windows from running sums along v, then along u.
-  std::vector<Eigen::Vector3d> rows(grid.area_normal.size());
-  for (int i = 0; i < grid.nu; ++i) {
-    for (int j = 0; j < grid.nv; ++j) {
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (int k = std::max(0, j - kReach); k <= std::min(grid.nv - 1, j + kReach); ++k) {
-        if (grid.inside[at(i, k)]) sum += grid.area_normal[at(i, k)];
+  std::vector<int> part(grid.area_normal.size(), -1);
+  std::vector<std::pair<int, int>> stack;
+  for (int seed = 0; seed < grid.nu * grid.nv; ++seed) {
+    const auto s = static_cast<std::size_t>(seed);
+    if (part[s] >= 0 || grid.area_normal[s].isZero()) continue;
+    const int number = static_cast<int>(areas->size());
+    areas->push_back(0);
+    part[s] = number;
+    stack.assign(1, {seed / grid.nv, seed % grid.nv});
+    while (!stack.empty()) {
+      const auto [i, j] = stack.back();
+      stack.pop_back();
+      const Eigen::Vector3d& normal = grid.area_normal[at(i, j)];
+      if (grid.inside[at(i, j)]) areas->back() += normal.norm();
+      const std::array<std::pair<int, int>, 4> beside = {{{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}}};
+      for (const auto& [k, l] : beside) {
+        if (k < 0 || l < 0 || k >= grid.nu || l >= grid.nv || part[at(k, l)] >= 0) continue;
+        if (normal.dot(grid.area_normal[at(k, l)]) <= 0) continue;
+        part[at(k, l)] = number;
+        stack.emplace_back(k, l);
       }
-      rows[at(i, j)] = sum;
     }
   }
+  return part;
+}
+
+// The sum of S_u × S_v over the samples inside in the 9 × 9 window round (i, j).
+Eigen::Vector3d WindowSum(const SampleGrid& grid, int i, int j) {
+  constexpr int kReach = 4;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int k = std::max(0, i - kReach); k <= std::min(grid.nu - 1, i + kReach); ++k) {
+    for (int l = std::max(0, j - kReach); l <= std::min(grid.nv - 1, j + kReach); ++l) {
+      const auto at = static_cast<std::size_t>(k * grid.nv + l);
+      if (grid.inside[at]) sum += grid.area_normal[at];
+    }
+  }
+  return sum;
+}
+
+// Samples inside that have turned over: beyond a crease, that is outside the part of the largest area, or
+// against their surroundings, where a small fold's normals turn step by step.
+int CountFlipped(const SampleGrid& grid) {
+  std::vector<double> areas;
+  const std::vector<int> part = PartsByNormal(grid, &areas);
+  const auto largest = std::max_element(areas.begin(), areas.end()) - areas.begin();
+  int flipped = 0;
   for (int i = 0; i < grid.nu; ++i) {
     for (int j = 0; j < grid.nv; ++j) {
-      if (!grid.inside[at(i, j)]) continue;
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (int k = std::max(0, i - kReach); k <= std::min(grid.nu - 1, i + kReach); ++k)
-        sum += rows[at(k, j)];
-      if (sum.dot(grid.area_normal[at(i, j)]) < 0) ++flipped;
+      const auto at = static_cast<std::size_t>(i * grid.nv + j);
+      if (!grid.inside[at] || part[at] < 0) continue;
+      if (part[at] != largest || WindowSum(grid, i, j).dot(grid.area_normal[at]) < 0) ++flipped;
     }
   }
   return flipped;

@@ -19,11 +19,11 @@ struct SurfaceQuality {
   double inlier_rmse = 0, inlier_max = 0;       // of the points not marked as outliers
   double reverse_p95 = 0, reverse_max = 0;      // surface samples inside the trim to the nearest inlier
   double area = 0;                              // inside the trim
-  int flipped_normals = 0;   // samples inside the trim whose normal turns against its surroundings
-  int surface_samples = 0;   // inside the trim
-  double data_coverage = 0;  // share of the area with a point within 3 spacings
-  double local_noise = 0;    // of the scan itself (LocalNoise)
-  double point_spacing = 0;  // of the scan (PointSpacing)
+  int flipped_normals = 0;                      // samples inside the trim that lie beyond a fold: turned over
+  int surface_samples = 0;                      // inside the trim
+  double data_coverage = 0;                     // share of the area with a point within 3 spacings
+  double local_noise = 0;                       // of the scan itself (LocalNoise)
+  double point_spacing = 0;                     // of the scan (PointSpacing)
 };
 
 // Distance of every point to the surface (the whole of it: also feet outside the trim count), negative below

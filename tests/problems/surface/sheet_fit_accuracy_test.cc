@@ -31,7 +31,7 @@ TEST_P(SheetFitOnLeaves, At20By20_IsAccurateAndCheatsNowhere) {
   EXPECT_LE(std::count(fit.outlier.begin(), fit.outlier.end(), 1), 40);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, SheetFitOnLeaves, testing::Values(1, 3));  // a hill; the wildest
+INSTANTIATE_TEST_SUITE_P(Seeds, SheetFitOnLeaves, ::testing::Range(1, 9));  // a hill; the wildest
 
 TEST(SheetFit, WithOutliers_FindsThemAndFitsTheRest) {
   const LeafCase leaf = MakeLeafCase(2, {.points = 20000, .noise = kNoise, .outlier_share = 0.02});

@@ -139,6 +139,18 @@ TEST(JudgeSurface, FoldedSurface_HasFlippedNormals) {
   EXPECT_NEAR(quality.area, 6 + 12.0 / 11, 1e-6);  // three times the strip and its two neighbours' excess
 }
 
+TEST(JudgeSurface, SheetFoldedInHalf_HasHalfItsNormalsFlipped) {
+  // x = (u − ½)²: back over itself along a crease in the middle.
+  const BSplineBasis u = UniformBasis(2, 3), v = UniformBasis(1, 2);
+  Points control_points;
+  for (const double x : {0.25, -0.25, 0.25}) {
+    for (int j = 0; j < 2; ++j) control_points.emplace_back(x, j, 0);
+  }
+  const TrimmedSurface folded{NurbsSurface(u, v, control_points), {}};
+  const SurfaceQuality quality = Judge(Sheet(30, 0), folded, 0.1);
+  EXPECT_NEAR(quality.flipped_normals, 0.5 * quality.surface_samples, 0.01 * quality.surface_samples);
+}
+
 TEST(JudgeSurface, CurledSheet_HasNoFlippedNormals) {
   // Four fifths of a cylinder: normals turn by 288° over the sheet, but not against their surroundings.
   const BSplineBasis u = UniformBasis(3, 16), v = UniformBasis(1, 2);
