@@ -8,6 +8,7 @@
 
 #include "base/errors.h"
 #include "experiments/sheet_metrics.h"
+#include "io/length_unit.h"
 #include "models/nurbs_operations.h"
 #include "problems/leaf/leaf_options.h"
 #include "problems/leaf/leaf_paper_fit.h"
@@ -45,15 +46,17 @@ std::array<int, 2> PairOf(const Options& problem, const std::string& name) {
   return {values.front(), values.back()};
 }
 
-LeafPaperOptions PaperOptions(const Options& problem) {
+double MillimetresPer(const std::string& unit) { return 1000 * MetresPerUnit(unit); }
+
+LeafPaperOptions PaperOptions(const Options& problem, const std::string& unit) {
   const auto degree = PairOf(problem, "surface.degree"), net = PairOf(problem, "surface.control_points");
-  return LeafPaperOptionsFrom(problem, {degree[0], degree[1]}, {net[0], net[1]});
+  return LeafPaperOptionsFrom(problem, {degree[0], degree[1]}, {net[0], net[1]}, MillimetresPer(unit));
 }
 
 // The paper's surface as a start: of the degrees and net asked for, or as many control points as its point
 // set can tell (a row of the ordered kind across, the selected slices along; 5 x 5 where the net is chosen
 // later).
-LeafPaperOptions PaperStartOptions(const Options& problem) {
+LeafPaperOptions PaperStartOptions(const Options& problem, const std::string& unit) {
   const PointSetOptions set = PointSetOptionsFrom(problem);
   const std::array<int, 2> most = {set.left + set.right + 3, set.selected};
   auto degree = PairOf(problem, "surface.degree");
@@ -63,7 +66,8 @@ LeafPaperOptions PaperStartOptions(const Options& problem) {
     net[k] = std::min(net[k], most[k]);
     degree[k] = std::min(degree[k], net[k] - 1);
   }
-  LeafPaperOptions options = LeafPaperOptionsFrom(problem, {degree[0], degree[1]}, {net[0], net[1]});
+  LeafPaperOptions options =
+      LeafPaperOptionsFrom(problem, {degree[0], degree[1]}, {net[0], net[1]}, MillimetresPer(unit));
   options.free_weights = false;
   return options;
 }
@@ -73,7 +77,7 @@ void Check(const Options& problem) {
     if (problem.HoldsWord("surface.control_points")) {
       throw ConfigError("option 'surface.control_points' is auto, which 'method: paper' does not know");
     }
-    (void)PaperOptions(problem);
+    (void)PaperOptions(problem, "mm");
     return;
   }
   CheckSheetOptions(problem);
@@ -89,9 +93,27 @@ void CheckPointCount(std::size_t points, int count_u, int count_v) {
                    most + " x " + most);
 }
 
+// A cloud in its leaf's frame.
+struct InFrame {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::uint8_t> stray;  // 1 for the frame's strays
+  Eigen::Isometry3d to_input = Eigen::Isometry3d::Identity();
+};
+
+InFrame ToFrame(const std::vector<Eigen::Vector3d>& points, const LeafFrame& frame) {
+  InFrame local;
+  local.points.reserve(points.size());
+  for (const auto& point : points) local.points.push_back(frame.FromInput(point));
+  local.stray.assign(points.size(), 0);
+  for (const std::size_t i : frame.strays) local.stray[i] = 1;
+  local.to_input.linear() = frame.axes;
+  local.to_input.translation() = frame.origin;
+  return local;
+}
+
 FitOutcome RunPaper(const RunInput& input, const Options& problem, const Solver& solver, const Budget& budget,
                     const SolveContext& context) {
-  const LeafPaperOptions options = PaperOptions(problem);
+  const LeafPaperOptions options = PaperOptions(problem, input.unit);
   CheckPointCount(input.cloud.points.size(), options.surface.count_u, options.surface.count_v);
   LeafPaperFit fit = FitLeafAsInPaper(input.cloud.points, options, &solver, budget, context);
   FitOutcome outcome;
@@ -99,12 +121,15 @@ FitOutcome RunPaper(const RunInput& input, const Options& problem, const Solver&
   outcome.warnings = fit.warnings;
   outcome.report = fit.report;
   StageClock clock;
-  const SheetJudgement judgement = JudgeSheet(input.cloud.points, {fit.surface, {}}, context.threads);
+  const InFrame local = ToFrame(input.cloud.points, fit.frame);
+  const NurbsSurface local_surface = Transformed(fit.surface, local.to_input.inverse());
+  const SheetJudgement judgement =
+      JudgeSheet(local.points, local.stray, {local_surface, {}}, context.threads);
   clock.End("quality");
   outcome.stages.push_back(clock.stages().front());
   SetQuality(judgement.quality, fit.surface, &outcome.metrics);
   outcome.signed_distances = judgement.distances.signed_distance;
-  outcome.outlier = judgement.outlier;
+  outcome.outlier = local.stray;
   outcome.metrics.Set(
       "outliers", static_cast<std::int64_t>(std::count(outcome.outlier.begin(), outcome.outlier.end(), 1)));
   outcome.metrics.Set("margin", std::string("none"));
@@ -131,14 +156,7 @@ FitOutcome RunDistance(const RunInput& input, const Options& problem, const Solv
   FitOutcome outcome;
   StageClock clock;
   const LeafFrame frame = FindLeafFrame(input.cloud.points, LeafFrameOptionsFrom(problem));
-  std::vector<Eigen::Vector3d> local;
-  local.reserve(input.cloud.points.size());
-  for (const auto& point : input.cloud.points) local.push_back(frame.FromInput(point));
-  std::vector<std::uint8_t> stray(local.size(), 0);
-  for (const std::size_t i : frame.strays) stray[i] = 1;
-  Eigen::Isometry3d to_input = Eigen::Isometry3d::Identity();
-  to_input.linear() = frame.axes;
-  to_input.translation() = frame.origin;
+  const InFrame local = ToFrame(input.cloud.points, frame);
   clock.End("frame");
 
   std::optional<NurbsSurface> start;
@@ -147,15 +165,17 @@ FitOutcome RunDistance(const RunInput& input, const Options& problem, const Solv
       MarginFor(options, options.control_points) == MarginMode::kConforming && options.control_points[0] > 0;
   options.given_start_only = wanted == "paper";
   if (wanted == "paper" || (wanted == "auto" && conforming)) {
-    LeafPaperFit fit = FitLeafAsInPaper(input.cloud.points, PaperStartOptions(problem), nullptr, {}, context);
+    LeafPaperFit fit =
+        FitLeafAsInPaper(input.cloud.points, PaperStartOptions(problem, input.unit), nullptr, {}, context);
     for (std::string& warning : fit.warnings) outcome.warnings.push_back("start: " + std::move(warning));
-    start = Transformed(fit.surface, to_input.inverse());
+    start = Transformed(fit.surface, local.to_input.inverse());
     clock.End("paper_start");
   }
   outcome.stages = clock.stages();
-  SheetFit fit = FitSheet(local, stray, start, options, solver, budget, context);
+  SheetFit fit = FitSheet(local.points, local.stray, start, options, solver, budget, context);
   SetSheetFit(fit, &outcome);
-  outcome.surface = TrimmedSurface{Transformed(fit.surface.surface, to_input), std::move(fit.surface.trim)};
+  outcome.surface =
+      TrimmedSurface{Transformed(fit.surface.surface, local.to_input), std::move(fit.surface.trim)};
   SetTruth(input, context.threads, &outcome);
   return outcome;
 }

@@ -49,6 +49,16 @@ OptionSpec Flag(const std::string& name, bool value, const std::string& help) {
   return {.name = name, .type = OptionType::kFlag, .default_value = value, .help = help};
 }
 
+constexpr double kPetioleWidth = 2;  // mm: the mean of tea leaves (Wu et al. 2021, section 2.3.2)
+
+OptionSpec PetioleWidth() {
+  OptionSpec spec = Number("point_set.petiole_width", 2, 1e-12, 1e12,
+                           "Width of the leaf's base edge, in the input's unit; auto: 2 mm");
+  spec.default_value = std::string("auto");
+  spec.words = {"auto"};
+  return spec;
+}
+
 }  // namespace
 
 std::vector<OptionSpec> LeafSpecs() {
@@ -63,7 +73,7 @@ std::vector<OptionSpec> LeafSpecs() {
              "(falls back to unordered where no midrib stands out)"),
       Integer("point_set.slices", 50, 1, kMany, "Slices across the leaf, base and tip apart"),
       Integer("point_set.selected", 7, 3, kMany, "Slices that are fitted, base and tip included"),
-      Number("point_set.petiole_width", 2, 1e-12, 1e12, "Width of the leaf's base edge, in the input's unit"),
+      PetioleWidth(),
       Integer("point_set.left", 2, 0, kMany, "Points of an ordered row between left margin and midrib"),
       Integer("point_set.right", 2, 0, kMany, "Points of an ordered row between midrib and right margin"),
       Number("point_set.midrib_threshold", 0.5, 0, 10,
@@ -95,12 +105,14 @@ LeafFrameOptions LeafFrameOptionsFrom(const Options& options) {
   return {.leave_out_strays = options.Flag("frame.leave_out_strays")};
 }
 
-PointSetOptions PointSetOptionsFrom(const Options& options) {
+PointSetOptions PointSetOptionsFrom(const Options& options, double unit_mm) {
   return {
       .kind = options.Text("point_set.kind") == "ordered" ? PointSetKind::kOrdered : PointSetKind::kUnordered,
       .slices = options.Integer("point_set.slices"),
       .selected = options.Integer("point_set.selected"),
-      .petiole_width = options.Number("point_set.petiole_width"),
+      .petiole_width = options.HoldsWord("point_set.petiole_width")
+                           ? kPetioleWidth / unit_mm
+                           : options.Number("point_set.petiole_width"),
       .left = options.Integer("point_set.left"),
       .right = options.Integer("point_set.right"),
       .midrib_threshold = options.Number("point_set.midrib_threshold")};
@@ -146,9 +158,9 @@ LeafSurfaceOptions LeafSurfaceOptionsFrom(const Options& options, const std::vec
 }
 
 LeafPaperOptions LeafPaperOptionsFrom(const Options& options, const std::vector<int>& degree,
-                                      const std::vector<int>& control_points) {
+                                      const std::vector<int>& control_points, double unit_mm) {
   return {.frame = LeafFrameOptionsFrom(options),
-          .point_set = PointSetOptionsFrom(options),
+          .point_set = PointSetOptionsFrom(options, unit_mm),
           .test_subset = TestSubsetOptionsFrom(options),
           .surface = LeafSurfaceOptionsFrom(options, degree, control_points),
           .free_weights = options.Text("paper.weights") == "free",

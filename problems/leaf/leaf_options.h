@@ -21,7 +21,8 @@ std::vector<OptionSpec> LeafSpecs();
 // From options that hold LeafSpecs() (and more, if wanted).
 LeafMethod LeafMethodFrom(const Options& options);
 LeafFrameOptions LeafFrameOptionsFrom(const Options& options);
-PointSetOptions PointSetOptionsFrom(const Options& options);
+// `unit_mm`: the input's unit in mm.
+PointSetOptions PointSetOptionsFrom(const Options& options, double unit_mm = 1);
 TestSubsetOptions TestSubsetOptionsFrom(const Options& options);
 LeafWeightsOptions LeafWeightsOptionsFrom(const Options& options);
 
@@ -29,7 +30,7 @@ LeafWeightsOptions LeafWeightsOptionsFrom(const Options& options);
 LeafSurfaceOptions LeafSurfaceOptionsFrom(const Options& options, const std::vector<int>& degree,
                                           const std::vector<int>& control_points);
 LeafPaperOptions LeafPaperOptionsFrom(const Options& options, const std::vector<int>& degree,
-                                      const std::vector<int>& control_points);
+                                      const std::vector<int>& control_points, double unit_mm = 1);
 
 // `synth leaf`: the scan, the look of the leaf (RandomLeaf by `character` and seed), and single numbers of
 // its shape (`shape.length`, …) to be set apart; lengths in mm.

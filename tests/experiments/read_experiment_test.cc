@@ -21,7 +21,7 @@ TEST(ReadExperiment, ShortestConfig_HasTheDocumentedDefaults) {
   EXPECT_EQ(experiment.problem.Text("method"), "distance");
   EXPECT_EQ(experiment.problem.Integers("surface.control_points"), (std::vector<int>{20, 20}));
   EXPECT_EQ(experiment.problem.Integers("surface.degree"), (std::vector<int>{3, 3}));
-  EXPECT_EQ(experiment.problem.Number("point_set.petiole_width"), 2);
+  EXPECT_EQ(experiment.problem.Text("point_set.petiole_width"), "auto");
   EXPECT_EQ(experiment.problem.Integer("point_set.slices"), 50);
   EXPECT_EQ(experiment.problem.Integer("point_set.selected"), 7);
   EXPECT_EQ(experiment.problem.Numbers("paper.alpha"), (std::vector<double>{0.8, 0.2}));
