@@ -47,7 +47,9 @@ std::vector<std::string> ParseFlags(int argc, char** argv) {
       others.push_back(argument);
       continue;
     }
-    const std::string body = argument.substr(argument.find_first_not_of('-'));
+    const std::size_t dashes = argument.find_first_not_of('-');
+    if (dashes > 2) throw ConfigError("'" + argument + "' is not a flag; see frond --help");  // npos: "--"
+    const std::string body = argument.substr(dashes);
     const std::size_t equals = body.find('=');
     std::string name = body.substr(0, equals), value;
     if (!IsKnown(name) && name.rfind("no", 0) == 0 && IsKnown(name.substr(2)) && IsBoolean(name.substr(2))) {
@@ -63,6 +65,9 @@ std::vector<std::string> ParseFlags(int argc, char** argv) {
       value = argv[++i];
     } else {
       throw ConfigError("flag '--" + name + "' needs a value");
+    }
+    if (std::string before; name == "set" && gflags::GetCommandLineOption("set", &before)) {
+      if (!before.empty()) value = before + ";" + value;  // --set adds up; of other flags the last one holds
     }
     if (gflags::SetCommandLineOption(name.c_str(), value.c_str()).empty()) {
       throw ConfigError("flag '--" + name + "' cannot be '" + value + "'");

@@ -14,6 +14,7 @@
 #include "base/errors.h"
 #include "experiments/convert.h"
 #include "experiments/experiment.h"
+#include "experiments/message.h"
 #include "experiments/sweep.h"
 #include "experiments/synth.h"
 #include "experiments/version.h"
@@ -42,7 +43,7 @@ usage: frond COMMAND [ARGUMENTS] [--flags]
   synth KIND      make a synthetic scan with its truth: leaf
   convert IN OUT  surfaces, clouds and meshes from one format to another
 
-  --set="a.b=1; c.d=[2, 3]"  config values (synth: its options)
+  --set="a.b=1; c.d=[2, 3]"  config values (synth: its options); may be repeated
   --out=PATH                 where to write (runs/NAME)
   --overwrite                replace an existing run directory
   --threads=N                threads; 0: all cores. Results do not depend on it
@@ -131,7 +132,7 @@ void Dispatch(const std::vector<std::string>& arguments) {
 }
 
 int Fail(ExitCode code, const std::string& message) {
-  std::cerr << "frond: " << message << "\n";
+  PrintMessage(message);
   return code;
 }
 
@@ -161,6 +162,8 @@ int Main(int argc, char** argv) {
     return Fail(kInternal, "out of memory");
   } catch (const std::exception& error) {
     return Fail(kInternal, std::string("internal error: ") + error.what());
+  } catch (...) {
+    return Fail(kInternal, "internal error: an exception of unknown type");
   }
 }
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 
 #include "base/errors.h"
+#include "experiments/message.h"
 #include "experiments/sweep.h"
 #include "experiments/version.h"
 #include "io/run_directory.h"
@@ -210,7 +210,7 @@ std::filesystem::path FitConfig(const std::filesystem::path& config_path, const 
   const RunResult result = RunExperiment(experiment, flags.threads);
   WriteRun(experiment, result, target, overwrite);
   for (const std::string& warning : result.outcome.warnings) {
-    std::cerr << "frond: warning: " << result.input.description << ": " << warning << "\n";
+    PrintMessage("warning: " + result.input.description + ": " + warning);
   }
   return target;
 }

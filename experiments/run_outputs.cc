@@ -17,11 +17,11 @@ constexpr int kSegmentsPerSpan = 4;
 void WriteSurfaces(const Experiment& experiment, const RunResult& result, const RunDirectory& run) {
   if (!result.outcome.surface) return;
   const SurfaceDocument document{*result.outcome.surface, result.input.unit};
+  WriteSurfaceJson(run.File("surface.json"), document);  // whatever the formats: it alone holds all digits
   std::optional<SurfaceMesh> mesh;
   for (const std::string& format : experiment.formats) {
-    if (format == "json") {
-      WriteSurfaceJson(run.File("surface.json"), document);
-    } else if (format == "step") {
+    if (format == "json") continue;
+    if (format == "step") {
       WriteStep(run.File("surface.step"), document);
     } else if (format == "iges") {
       WriteIges(run.File("surface.igs"), document);

@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "base/parallel.h"
+#include "experiments/message.h"
 #include "experiments/sweep_plot.h"
 #include "io/file_bytes.h"
 #include "io/run_directory.h"
@@ -23,6 +24,8 @@ const char* const kRepetition = "seed";  // the axis that summaries average over
 struct SweepRun {
   std::vector<OptionValue> values;  // one an axis
   std::string error;                // empty: it worked
+  bool bad_input = false;           // the error is an InputError
+  std::int64_t warnings = 0;
   MetricTable metrics;
 };
 
@@ -70,7 +73,7 @@ void WriteRuns(const std::vector<ConfigFile::SweepAxis>& axes, const std::vector
   const std::vector<std::string> metrics = NumericMetrics(runs);
   std::vector<std::string> columns;
   for (const auto& axis : axes) columns.push_back(axis.key);
-  columns.insert(columns.end(), {"status", "error"});
+  columns.insert(columns.end(), {"status", "error", "warnings"});
   columns.insert(columns.end(), metrics.begin(), metrics.end());
   std::vector<std::vector<MetricValue>> rows;
   for (const SweepRun& run : runs) {
@@ -78,6 +81,7 @@ void WriteRuns(const std::vector<ConfigFile::SweepAxis>& axes, const std::vector
     for (const OptionValue& value : run.values) row.push_back(AsMetric(value));
     row.emplace_back(std::string(run.error.empty() ? "ok" : "failed"));
     row.emplace_back(run.error);
+    row.push_back(run.error.empty() ? MetricValue(run.warnings) : MetricValue(kNone));
     for (const std::string& name : metrics) row.emplace_back(run.metrics.Number(name));
     rows.push_back(std::move(row));
   }
@@ -183,6 +187,30 @@ std::optional<PlotRequest> ReadPlot(const ConfigFile& config,
   return plot;
 }
 
+// The axes of `sweep`, paths made absolute as everywhere else in a config.
+std::vector<ConfigFile::SweepAxis> ReadAxes(const ConfigFile& config) {
+  std::vector<ConfigFile::SweepAxis> axes = config.Sweep();
+  for (auto& axis : axes) {
+    if (axis.key != "input.cloud" && axis.key != "input.truth") continue;
+    const bool command_line = axis.place == "--set";
+    const std::filesystem::path base = command_line ? std::filesystem::current_path()
+                                                    : std::filesystem::absolute(config.name()).parent_path();
+    for (OptionValue& value : axis.values) {
+      const auto* text = std::get_if<std::string>(&value);
+      if (text != nullptr && !text->empty()) value = (base / *text).lexically_normal().string();
+    }
+  }
+  return axes;
+}
+
+// The config of run `run`, before it is checked.
+ConfigFile ConfigOf(const ConfigFile& config, const std::vector<ConfigFile::SweepAxis>& axes,
+                    const SweepRun& run) {
+  ConfigFile one = config;
+  for (std::size_t k = 0; k < axes.size(); ++k) one.Set(axes[k].key, run.values[k]);
+  return one;
+}
+
 std::vector<Experiment> ReadExperiments(const ConfigFile& config, const RunFlags& flags,
                                         const std::vector<ConfigFile::SweepAxis>& axes,
                                         const std::vector<SweepRun>& runs) {
@@ -193,11 +221,7 @@ std::vector<Experiment> ReadExperiments(const ConfigFile& config, const RunFlags
     }
   }
   std::vector<Experiment> experiments;
-  for (const SweepRun& run : runs) {
-    ConfigFile one = config;
-    for (std::size_t k = 0; k < axes.size(); ++k) one.Set(axes[k].key, run.values[k]);
-    experiments.push_back(ReadExperiment(one, flags));
-  }
+  for (const SweepRun& run : runs) experiments.push_back(ReadExperiment(ConfigOf(config, axes, run), flags));
   return experiments;
 }
 
@@ -209,9 +233,12 @@ void Execute(const std::vector<Experiment>& experiments, int threads, bool progr
   ParallelFor(runs->size(), 1, threads, [&](std::size_t i, std::size_t) {
     SweepRun& run = (*runs)[i];
     try {
-      run.metrics = RunExperiment(experiments[i], 1).metrics.metrics;
+      const RunResult result = RunExperiment(experiments[i], 1);
+      run.metrics = result.metrics.metrics;
+      run.warnings = static_cast<std::int64_t>(result.outcome.warnings.size());
     } catch (const InputError& error) {
       run.error = error.what();
+      run.bad_input = true;
     } catch (const FitError& error) {
       run.error = error.what();
     }
@@ -222,11 +249,53 @@ void Execute(const std::vector<Experiment>& experiments, int threads, bool progr
   });
 }
 
+void AddWhatIsSet(const ConfigFile& config, const std::string& section, const std::vector<OptionSpec>& specs,
+                  ResolvedConfig* resolved) {
+  Options options(specs);
+  config.ReadSection(section, &options, {"type"});
+  for (const OptionSpec& spec : specs) {
+    if (options.IsSet(spec.name)) resolved->Add(section + "." + spec.name, options.Value(spec.name));
+  }
+}
+
+std::string YamlOf(const OptionValue& value) {
+  ResolvedConfig one;
+  one.Add("v", value);
+  const std::string yaml = one.Yaml();  // "v: VALUE\n"
+  return yaml.substr(3, yaml.size() - 4);
+}
+
+// The config that repeats the sweep. Options of fit and solver are written where they are set: a default may
+// hang on what is swept. Swept keys hold the first run's values, which the sweep replaces.
+std::string SweepYaml(const ConfigFile& first_config, const Experiment& first,
+                      const std::vector<ConfigFile::SweepAxis>& axes,
+                      const std::optional<PlotRequest>& plot) {
+  Experiment frame = first;
+  frame.problem = Options({});
+  frame.solver = Options({});
+  ResolvedConfig resolved = frame.Resolved();
+  AddWhatIsSet(first_config, "problem", FindFitType(first.problem_type).options, &resolved);
+  AddWhatIsSet(first_config, "solver", FindSolverType(first.solver_type).options, &resolved);
+  if (plot) {
+    resolved.Add("output.plot.x", plot->x);
+    resolved.Add("output.plot.y", plot->y);
+  }
+  std::string yaml = resolved.Yaml() + "sweep:\n";
+  for (const auto& axis : axes) {
+    yaml += "  " + axis.key + ": [";
+    for (std::size_t k = 0; k < axis.values.size(); ++k) {
+      yaml += (k > 0 ? ", " : "") + YamlOf(axis.values[k]);
+    }
+    yaml += "]\n";
+  }
+  return yaml;
+}
+
 }  // namespace
 
 std::filesystem::path RunSweep(const ConfigFile& config, const RunFlags& flags,
                                const std::filesystem::path& out, bool overwrite, bool progress) {
-  const std::vector<ConfigFile::SweepAxis> axes = config.Sweep();
+  const std::vector<ConfigFile::SweepAxis> axes = ReadAxes(config);
   if (axes.empty()) config.Fail("sweep", "'sweep' names no values");
   const std::optional<PlotRequest> plot = ReadPlot(config, axes);
   std::vector<SweepRun> runs = CrossedRuns(axes);
@@ -238,31 +307,29 @@ std::filesystem::path RunSweep(const ConfigFile& config, const RunFlags& flags,
 
   const std::vector<std::string> metrics = NumericMetrics(runs);
   std::vector<std::string> axis_names;
-  std::string sweep_yaml;
   for (const auto& axis : axes) {
     if (axis.key != kRepetition) axis_names.push_back(axis.key);
-    sweep_yaml += "  " + axis.key + ": [";
-    for (std::size_t k = 0; k < axis.values.size(); ++k) {
-      sweep_yaml += (k > 0 ? ", " : "") + FormatValue(axis.values[k]);
-    }
-    sweep_yaml += "]\n";
   }
   const std::vector<Group> groups = GroupRuns(axes, runs, metrics);
-  ResolvedConfig resolved = experiments.front().Resolved();
-  if (plot) {
-    resolved.Add("output.plot.x", plot->x);
-    resolved.Add("output.plot.y", plot->y);
-  }
-  WriteFileBytes(directory.File("config.yaml"), resolved.Yaml() + "sweep:\n" + sweep_yaml);
+  WriteFileBytes(directory.File("config.yaml"),
+                 SweepYaml(ConfigOf(config, axes, runs.front()), experiments.front(), axes, plot));
   WriteRuns(axes, runs, directory.File("runs.csv"));
   WriteSummary(axis_names, groups, metrics, directory.File("summary.csv"));
   if (plot)
     WriteFileBytes(directory.File("plot.svg"), Plot(experiments.front().name, axis_names, groups, *plot));
-  if (std::all_of(runs.begin(), runs.end(), [](const SweepRun& run) { return !run.error.empty(); })) {
-    throw FitError(config.name() + ": all " + std::to_string(runs.size()) +
-                   " runs failed; the first: " + runs.front().error);
+  const auto failed =
+      std::count_if(runs.begin(), runs.end(), [](const SweepRun& run) { return !run.error.empty(); });
+  if (failed == std::ssize(runs)) {
+    const std::string message =
+        config.name() + ": all " + std::to_string(failed) + " runs failed; the first: " + runs.front().error;
+    if (runs.front().bad_input) throw InputError(message);
+    throw FitError(message);
   }
   directory.Commit();
+  if (failed > 0) {
+    PrintMessage("warning: " + std::to_string(failed) + " of " + std::to_string(runs.size()) +
+                 " runs failed; see " + (target / "runs.csv").string());
+  }
   return target;
 }
 
@@ -273,7 +340,7 @@ std::size_t CheckConfig(const std::filesystem::path& path, const RunFlags& flags
     (void)ReadExperiment(config, flags);
     return 1;
   }
-  const std::vector<ConfigFile::SweepAxis> axes = config.Sweep();
+  const std::vector<ConfigFile::SweepAxis> axes = ReadAxes(config);
   (void)ReadPlot(config, axes);
   return ReadExperiments(config, flags, axes, CrossedRuns(axes)).size();
 }

@@ -124,15 +124,19 @@ TopoDS_Face CheckedFace(const fs::path& path, const SurfaceDocument& document) {
   return face;
 }
 
-std::string StepText(const TopoDS_Face& face) {
+[[noreturn]] void FailWrite(const fs::path& path, const char* format) {
+  FailFile(path, std::string("cannot be written: Open CASCADE cannot make ") + format +
+                     " of this surface; write another format, for example json or obj");
+}
+
+std::string StepText(const fs::path& path, const TopoDS_Face& face) {
   STEPControl_Writer writer;
-  if (writer.Transfer(face, STEPControl_AsIs) != IFSelect_RetDone)
-    throw InputError("the transfer to STEP failed");
+  if (writer.Transfer(face, STEPControl_AsIs) != IFSelect_RetDone) FailWrite(path, "STEP");
   StepData_StepWriter out(writer.Model());
   SetFullPrecision(&out.FloatWriter());
   out.SendModel(Handle(StepData_Protocol)::DownCast(STEPEdit::Protocol()));
   std::ostringstream text;
-  if (!out.Print(text)) throw InputError("the STEP writer failed");
+  if (!out.Print(text)) FailWrite(path, "STEP");
   return text.str();
 }
 
@@ -143,16 +147,16 @@ void SetUnit(const CadUnit& unit, const Handle(IGESData_IGESModel) & model) {
   model->SetGlobalSection(section);
 }
 
-std::string IgesText(const TopoDS_Face& face, const CadUnit& unit) {
+std::string IgesText(const fs::path& path, const TopoDS_Face& face, const CadUnit& unit) {
   IGESControl_Writer writer(unit.theirs, /*modecr: faces as trimmed surfaces, type 144*/ 0);
   SetUnit(unit, writer.Model());
-  if (!writer.AddShape(face)) throw InputError("the transfer to IGES failed");
+  if (!writer.AddShape(face)) FailWrite(path, "IGES");
   writer.ComputeModel();
   IGESData_IGESWriter out(writer.Model());
   SetFullPrecision(&out.FloatWriter());
   out.SendModel(IGESSelect_WorkLibrary::DefineProtocol());
   std::ostringstream text;
-  if (!out.Print(text)) throw InputError("the IGES writer failed");
+  if (!out.Print(text)) FailWrite(path, "IGES");
   return text.str();
 }
 
@@ -282,16 +286,16 @@ void WriteStep(const fs::path& path, const SurfaceDocument& document) {
   const CadUnit& unit = FindUnit(document.unit);
   const Session session;
   session.SetUnit(unit);
-  WriteFileBytes(path,
-                 Guarded<FitError>(path.string(), [&] { return StepText(CheckedFace(path, document)); }));
+  WriteFileBytes(
+      path, Guarded<FitError>(path.string(), [&] { return StepText(path, CheckedFace(path, document)); }));
 }
 
 void WriteIges(const fs::path& path, const SurfaceDocument& document) {
   const CadUnit& unit = FindUnit(document.unit);
   const Session session;
   session.SetUnit(unit);
-  WriteFileBytes(
-      path, Guarded<FitError>(path.string(), [&] { return IgesText(CheckedFace(path, document), unit); }));
+  WriteFileBytes(path, Guarded<FitError>(path.string(),
+                                         [&] { return IgesText(path, CheckedFace(path, document), unit); }));
 }
 
 SurfaceDocument ReadStep(const fs::path& path) { return ReadDocument(path); }

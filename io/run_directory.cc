@@ -57,25 +57,44 @@ RunDirectory::RunDirectory(fs::path target, bool overwrite) : overwrite_(overwri
   if (!target_.has_filename()) target_ = target_.parent_path();  // "out/" is "out"
   CheckTarget(target_, overwrite);
   const fs::path parent = target_.parent_path();
-  std::error_code error;
-  fs::create_directories(parent, error);
-  if (error) FailFile(parent, "cannot be made: " + error.message());
   // Two runs of one process to the same target differ by the number; leftovers of a killed one are not
-  // touched.
+  // touched. A parent that has vanished was made, and removed again, by another run.
   for (int attempt = 0;; ++attempt) {
+    MakeParent();
     working_ = Sibling(target_, "partial");
     if (attempt > 0) working_ += "-" + std::to_string(attempt);
     if (::mkdir(working_.c_str(), 0777) == 0) return;
-    if (errno != EEXIST || attempt > 1000) {
-      FailFile(parent, std::string("cannot be written: ") + std::strerror(errno));
-    }
+    const int cause = errno;
+    if (attempt < (cause == EEXIST ? 1000 : cause == ENOENT ? 3 : 0)) continue;
+    RemoveMadeParents();
+    FailFile(parent, std::string("cannot be written: ") + std::strerror(cause));
   }
+}
+
+void RunDirectory::MakeParent() {
+  const fs::path parent = target_.parent_path();
+  std::error_code error;
+  std::vector<fs::path> missing;
+  for (fs::path folder = parent; !fs::exists(folder, error) && folder.has_relative_path();
+       folder = folder.parent_path()) {
+    missing.push_back(folder);
+  }
+  if (!missing.empty()) made_parents_ = missing;
+  fs::create_directories(parent, error);
+  if (!error) return;
+  RemoveMadeParents();
+  FailFile(parent, "cannot be made: " + error.message());
+}
+
+void RunDirectory::RemoveMadeParents() const {
+  for (const fs::path& folder : made_parents_) (void)::rmdir(folder.c_str());  // fails unless it is empty
 }
 
 RunDirectory::~RunDirectory() {
   if (committed_) return;
   std::error_code ignored;
   fs::remove_all(working_, ignored);
+  RemoveMadeParents();
 }
 
 void RunDirectory::Commit() {

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace frond {
 
 // A result folder that appears whole or not at all. Files are written into a hidden sibling
-// (.NAME.partial-PID), which Commit renames to the target; without Commit it is removed.
+// (.NAME.partial-PID), which Commit renames to the target; without Commit it is removed, and so are the
+// parent folders made for it, while they are empty.
 class RunDirectory {
  public:
   // Throws InputError where the parent cannot be made or written. An existing target is a ConfigError, unless
@@ -29,7 +31,11 @@ class RunDirectory {
   void Commit();
 
  private:
+  void MakeParent();
+  void RemoveMadeParents() const;
+
   std::filesystem::path target_, working_;
+  std::vector<std::filesystem::path> made_parents_;  // the deepest first
   bool overwrite_ = false;
   bool committed_ = false;
 };

@@ -44,6 +44,11 @@ TEST(CommandLine, WrongUsage_IsCode2AndOneLineWithTheWayOut) {
        2,
        "unknown problem type 'laef' (did you mean 'leaf'?)"},
       {{"fit", "nowhere.yaml"}, 2, "nowhere.yaml: no such file"},
+      {{"--"}, 2, "'--' is not a flag; see frond --help"},
+      {{"---help"}, 2, "'---help' is not a flag; see frond --help"},
+      {{"f\ni\tt\x1b[31m"}, 2, "unknown command 'f?i?t?[31m'"},
+      {{"fit", "fit.yaml", "--set=seed=1", "--set=problem.type=laef"}, 2, "unknown problem type 'laef'"},
+      {{"fit", "fit.yaml", "--set=seed=-1", "--set=name=other"}, 2, "'seed' must not be negative"},
   };
   for (const Case& one : cases) {
     const ProgramResult result = RunFrond(one.arguments, folder.path());
@@ -79,7 +84,7 @@ TEST(CommandLine, List_NamesEverythingAndTheOptionsOfEach) {
     EXPECT_TRUE(Holds(all.out, name));
     EXPECT_EQ(all.err, "");
   }
-  EXPECT_TRUE(Holds(RunFrond({"list", "leaf"}, folder.path()).out, "point_set.petiole_width = 2"));
+  EXPECT_TRUE(Holds(RunFrond({"list", "leaf"}, folder.path()).out, "point_set.petiole_width = auto"));
   EXPECT_TRUE(Holds(RunFrond({"list", "pso"}, folder.path()).out, "swarm_size = 40"));
   EXPECT_TRUE(Holds(RunFrond({"list", "synth"}, folder.path()).out, "petiole_length = 0"));
 }
@@ -112,6 +117,22 @@ TEST(CommandLine, Fit_WritesTheRunWhereAskedAndSaysSo) {
   EXPECT_EQ(quiet.exit_code, 0) << quiet.err;
   EXPECT_EQ(quiet.out + quiet.err, "");
   EXPECT_TRUE(std::filesystem::exists(folder / "other/surface.json"));
+}
+
+TEST(CommandLine, Sweep_CountsItsFailuresAndFailsByTheFirstIfAllDo) {
+  const TempFolder folder;
+  folder.Write("fit.yaml", kConfig);
+  const ProgramResult some = RunFrond({"fit", "fit.yaml", "--out=some", "--quiet", "--set=input.points=300",
+                                       "--set=sweep={problem.surface.control_points: [6, 40]}"},
+                                      folder.path());
+  EXPECT_EQ(some.exit_code, 0);
+  EXPECT_EQ(some.err, "frond: warning: 1 of 2 runs failed; see some/runs.csv\n");
+  const ProgramResult all = RunFrond(
+      {"fit", "fit.yaml", "--out=all/deep/run", "--set=input={cloud: nowhere.ply}; sweep={seed: [1, 2]}"},
+      folder.path());
+  EXPECT_EQ(all.exit_code, 3);
+  EXPECT_TRUE(IsOneErrorLine(all.err)) << all.err;
+  EXPECT_EQ(NamesIn(folder.path()), (std::vector<std::string>{"fit.yaml", "some"}));
 }
 
 TEST(CommandLine, ExistingRun_IsKeptUnlessOverwriteIsGiven) {

@@ -43,6 +43,15 @@ TEST(RunContents, AreThoseOfTheDesign) {
   EXPECT_TRUE(Holds(FileText(run / "log.txt"), "stage fit"));
 }
 
+TEST(RunContents, SurfaceJson_IsThereWhateverTheFormats) {
+  const TempFolder folder;
+  WriteLeafFiles(folder);
+  const auto run = Fit(folder, kFit + "output: {formats: [obj]}\n", "run");
+  EXPECT_TRUE(std::filesystem::exists(run / "surface.json"));
+  EXPECT_TRUE(std::filesystem::exists(run / "surface.obj"));
+  EXPECT_FALSE(std::filesystem::exists(run / "surface.step"));
+}
+
 TEST(RunContents, MetricsJson_HasEveryKeyOfTheDesign) {
   const TempFolder folder;
   WriteLeafFiles(folder);

@@ -78,6 +78,45 @@ TEST(Sweep, ResolvedConfig_RepeatsTheTablesAndThePlot) {
   }
 }
 
+TEST(Sweep, Config_RepeatsSweepsOfSolverAndMethodWithoutTheFirstRunsDefaults) {
+  const TempFolder folder;
+  const auto first = Fit(
+      folder,
+      "seed: 5\ninput: {synthetic_leaf: 1, points: 500}\n"
+      "problem: {type: leaf, point_set: {slices: 10, selected: 8}}\n"
+      "sweep: {solver.type: [lm, pso], problem.method: [paper]}\n",
+      "first", {.set = "problem.surface={degree: [2, 2], control_points: [3, 7]}", .seed = {}, .threads = 1});
+  const std::string config = FileText(first / "config.yaml");
+  EXPECT_TRUE(Holds(config, "name: fit\nseed: 5\n"));
+  EXPECT_TRUE(Holds(config, "control_points: [3, 7]"));
+  EXPECT_TRUE(Holds(config, "solver.type: [lm, pso]"));
+  EXPECT_FALSE(Holds(config, "max_iterations"));  // lm's own
+  EXPECT_FALSE(Holds(config, "petiole_width"));
+  EXPECT_EQ(CheckConfig(first / "config.yaml", {}), 2U);
+  const auto second = FitConfig(first / "config.yaml", {}, folder / "second", false, false);
+  for (const char* file : {"runs.csv", "summary.csv", "config.yaml"}) {
+    EXPECT_EQ(FileText(first / file), FileText(second / file)) << file;
+  }
+  // Both methods: their dependent defaults differ.
+  const auto methods = Fit(folder,
+                           "input: {synthetic_leaf: 1, points: 1500}\nproblem: {type: leaf}\n"
+                           "sweep: {problem.method: [distance, paper]}\n",
+                           "methods", {.set = "problem.surface.control_points=6", .seed = {}, .threads = 1});
+  EXPECT_EQ(CheckConfig(methods / "config.yaml", {}), 2U);
+}
+
+TEST(Sweep, SweptScans_AreFoundFromTheConfigsFolderAndRepeated) {
+  const TempFolder folder;
+  WriteLeafFiles(folder, 1000, 100);
+  std::filesystem::rename(folder / "scan.ply", folder / "a scan.ply");
+  const auto run = Fit(folder,
+                       "problem: {type: leaf, surface: {control_points: [6, 6]}}\n"
+                       "sweep: {input.cloud: [a scan.ply, nowhere.ply]}\n",
+                       "run");
+  EXPECT_TRUE(Holds(FileText(run / "config.yaml"), "input.cloud: [\"" + (folder / "a scan.ply").string()));
+  EXPECT_TRUE(Holds(FileText(run / "runs.csv"), "ok"));
+}
+
 TEST(Sweep, FailedRuns_AreRowsAndTheOthersGoOn) {
   const TempFolder folder;
   const auto run = Fit(folder,
@@ -89,12 +128,13 @@ TEST(Sweep, FailedRuns_AreRowsAndTheOthersGoOn) {
   EXPECT_TRUE(Holds(runs, "ok"));
   EXPECT_TRUE(Holds(runs, "failed"));
   EXPECT_TRUE(Holds(runs, "cannot hold 40 x 40 control points"));
+  EXPECT_TRUE(Holds(runs, "control_points,status,error,warnings,"));
 }
 
 TEST(Sweep, AllRunsFailed_IsAnErrorAndLeavesNothing) {
   const TempFolder folder;
   const std::string yaml = "input: {cloud: nowhere.ply}\nproblem: {type: leaf}\nsweep: {seed: [1, 2]}\n";
-  EXPECT_TRUE(Holds(MessageOf<FitError>([&] { Fit(folder, yaml, "run"); }), "all 2 runs failed"));
+  EXPECT_TRUE(Holds(MessageOf<InputError>([&] { Fit(folder, yaml, "run"); }), "all 2 runs failed"));
   EXPECT_FALSE(std::filesystem::exists(folder / "run"));
 }
 

@@ -47,6 +47,22 @@ TEST(RunDirectory, WithoutCommit_LeavesNothing) {
   EXPECT_EQ(EntriesOf(folder.path()), 0u);
 }
 
+TEST(RunDirectory, WithoutCommit_RemovesTheParentsItMadeWhileTheyAreEmpty) {
+  const TempFolder folder;
+  fs::create_directory(folder / "mine");
+  { const RunDirectory run(folder / "mine/a/b/run", false); }
+  EXPECT_EQ(EntriesOf(folder / "mine"), 0u);
+  EXPECT_EQ(EntriesOf(folder.path()), 1u);
+  {
+    const RunDirectory run(folder / "mine/a/b/run", false);
+    folder.Write("mine/a/note", "text");
+  }
+  EXPECT_EQ(EntriesOf(folder / "mine/a"), 1u);
+  folder.Write("file", "text");
+  MessageOf<InputError>([&] { RunDirectory(folder / "file/a/run", false); });
+  MessageOf<InputError>([&] { RunDirectory("/proc/frond/a/run", false); });
+}
+
 TEST(RunDirectory, ExistingRun_IsRefusedUnlessOverwritten) {
   const TempFolder folder;
   MakeRun(folder / "run", "first");
