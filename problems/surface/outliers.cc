@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 namespace frond {
@@ -53,9 +54,11 @@ CubeGrid FillCubes(std::span<const Eigen::Vector3d> points, double side) {
   return grid;
 }
 
-// √(area / points) within a factor of two, whatever far outliers do: the area is that of an ellipse in the
-// rectangle of the two longest ranges, each from the 5 % to the 95 % quantile of a coordinate.
-double SheetSpacing(std::span<const Eigen::Vector3d> points) {
+// The side of the cubes: 2.5 spacings, but no less than 1/150 of the longest range, or dense scans' cubes
+// would be finer than their noise. Spacing: √(area / points) within a factor of two, whatever far outliers
+// do; the area is that of an ellipse in the rectangle of the two longest ranges, each from the 5 % to the 95
+// % quantile of a coordinate.
+double CubeSide(std::span<const Eigen::Vector3d> points) {
   std::array<double, 3> range;
   std::vector<double> values(points.size());
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -69,16 +72,22 @@ double SheetSpacing(std::span<const Eigen::Vector3d> points) {
     range[static_cast<std::size_t>(axis)] = (high - low) / 0.9;
   }
   std::sort(range.begin(), range.end());
-  return std::sqrt(M_PI / 4 * range[1] * range[2] / static_cast<double>(points.size()));
+  const double spacing = std::sqrt(M_PI / 4 * range[1] * range[2] / static_cast<double>(points.size()));
+  return std::max(2.5 * spacing, range[2] / 150);
 }
 
-// The points in a cube and the 26 round it.
-std::uint32_t PointsAround(const CubeGrid& grid, const Eigen::Vector3i& cube) {
+// The points in a cube and the 26 round it, counted no further than `enough`. In-plane neighbours come first,
+// since sheets are wider than thick in their principal axes.
+std::uint32_t PointsAround(const CubeGrid& grid, const Eigen::Vector3i& cube,
+                           std::uint32_t enough = std::numeric_limits<std::uint32_t>::max()) {
   std::uint32_t sum = 0;
-  for (int k = 0; k < 27; ++k) {
-    const Eigen::Vector3i beside = cube + Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-    const auto found = grid.place.find(CubeGrid::Key(beside));
-    if (found != grid.place.end()) sum += grid.members[found->second];
+  for (const int z : {0, 1, -1}) {
+    for (int k = 0; k < 9 && sum < enough; ++k) {
+      const int beside = (k + 4) % 9;  // the cube itself first
+      const auto found =
+          grid.place.find(CubeGrid::Key(cube + Eigen::Vector3i(beside % 3 - 1, beside / 3 - 1, z)));
+      if (found != grid.place.end()) sum += grid.members[found->second];
+    }
   }
   return sum;
 }
@@ -100,7 +109,7 @@ std::vector<std::uint8_t> SparseCubes(const CubeGrid& grid) {
   }
   std::vector<std::uint8_t> sparse;
   for (std::size_t c = 0; c < grid.cubes.size(); ++c) {
-    sparse.push_back(grid.members[c] < least && PointsAround(grid, grid.cubes[c]) < least);
+    sparse.push_back(grid.members[c] < least && PointsAround(grid, grid.cubes[c], least) < least);
   }
   return sparse;
 }
@@ -184,7 +193,6 @@ double PointSpacing(std::span<const Eigen::Vector3d> points, const KdTree& tree)
 }
 
 std::vector<std::uint8_t> StrayPoints(std::span<const Eigen::Vector3d> points) {
-  constexpr double kSide = 2.5;  // of the cubes, in spacings
   std::vector<std::uint8_t> stray(points.size(), 0);
   Eigen::AlignedBox3d box;
   for (const auto& point : points) box.extend(point);
@@ -192,8 +200,7 @@ std::vector<std::uint8_t> StrayPoints(std::span<const Eigen::Vector3d> points) {
   if (points.size() < 10 || !(extent > 0)) return stray;
   double farthest = 0;
   for (const auto& point : points) farthest = std::max(farthest, point.cwiseAbs().maxCoeff());
-  const double side =
-      std::max(kSide * SheetSpacing(points), farthest / 0x1p19);  // 21 bits hold a cube's number
+  const double side = std::max(CubeSide(points), farthest / 0x1p19);  // 21 bits hold a cube's number
   const CubeGrid dense = FillCubes(points, side);
   const std::vector<std::uint8_t> sparse = SparseCubes(dense);
   const CubeGrid pairs = Paired(dense, sparse);
