@@ -83,14 +83,9 @@ void Check(const Options& problem) {
   CheckSheetOptions(problem);
 }
 
-// Both methods refuse such a cloud in the same words, before a step of theirs fails for want of points. Below
-// 10 points there is no leaf at all, as the frame says.
-void CheckPointCount(std::size_t points, int count_u, int count_v) {
-  if (points < 10 || points >= static_cast<std::size_t>(count_u) * static_cast<std::size_t>(count_v)) return;
-  const auto most = std::to_string(static_cast<int>(std::sqrt(static_cast<double>(points))));
-  throw InputError(std::to_string(points) + " usable points cannot hold " + std::to_string(count_u) + " x " +
-                   std::to_string(count_v) + " control points; set surface.control_points to at most " +
-                   most + " x " + most);
+// Before the frame, whose own complaint about fewer than 10 points comes first.
+void CheckLeafPointCount(const RunInput& input, std::array<int, 2> control_points) {
+  if (input.cloud.points.size() >= 10) CheckPointCount(input.cloud.points.size(), control_points);
 }
 
 // A cloud in its leaf's frame.
@@ -114,7 +109,7 @@ InFrame ToFrame(const std::vector<Eigen::Vector3d>& points, const LeafFrame& fra
 FitOutcome RunPaper(const RunInput& input, const Options& problem, const Solver& solver, const Budget& budget,
                     const SolveContext& context) {
   const LeafPaperOptions options = PaperOptions(problem, input.unit);
-  CheckPointCount(input.cloud.points.size(), options.surface.count_u, options.surface.count_v);
+  CheckLeafPointCount(input, {options.surface.count_u, options.surface.count_v});
   LeafPaperFit fit = FitLeafAsInPaper(input.cloud.points, options, &solver, budget, context);
   FitOutcome outcome;
   outcome.stages = fit.stages;
@@ -152,7 +147,7 @@ FitOutcome RunDistance(const RunInput& input, const Options& problem, const Solv
                        const Budget& budget, const SolveContext& context) {
   SheetFitOptions options = SheetFitOptionsFrom(problem);
   options.tie_tip = problem.Flag("fit.tie_tip");
-  CheckPointCount(input.cloud.points.size(), options.control_points[0], options.control_points[1]);
+  CheckLeafPointCount(input, options.control_points);
   FitOutcome outcome;
   StageClock clock;
   const LeafFrame frame = FindLeafFrame(input.cloud.points, LeafFrameOptionsFrom(problem));

@@ -4,25 +4,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/option_specs.h"
+
 namespace frond {
 namespace {
 
 constexpr int kMostIterations = 1'000'000'000;
-
-OptionSpec Number(const std::string& name, double value, const std::string& help, double minimum,
-                  double maximum) {
-  return {.name = name,
-          .type = OptionType::kNumber,
-          .default_value = value,
-          .help = help,
-          .minimum = minimum,
-          .maximum = maximum};
-}
-
-OptionSpec Choice(const std::string& name, const std::string& value, const std::string& help,
-                  const std::vector<std::string>& words) {
-  return {.name = name, .type = OptionType::kChoice, .default_value = value, .help = help, .words = words};
-}
 
 std::vector<OptionSpec> CommonSpecs() {
   return {
@@ -33,23 +20,23 @@ std::vector<OptionSpec> CommonSpecs() {
        .minimum = 0,
        .maximum = kMostIterations},
       // Tighter than Ceres's 1e-6, which leaves few digits on slowly converging fits (MATH.md §7).
-      Number("function_tolerance", 1e-12, "Stop where |change of cost| < tolerance * cost; 0 never", 0, 1),
-      Number("gradient_tolerance", 1e-10, "Stop where the largest |gradient| <= tolerance; 0 never", 0,
-             1e300),
-      Number("parameter_tolerance", 1e-12, "Stop where |step| <= tolerance * (|x| + tolerance); 0 never", 0,
-             1),
+      NumberSpec("function_tolerance", 1e-12, 0, 1,
+                 "Stop where |change of cost| < tolerance * cost; 0 never"),
+      NumberSpec("gradient_tolerance", 1e-10, 0, 1e300,
+                 "Stop where the largest |gradient| <= tolerance; 0 never"),
+      NumberSpec("parameter_tolerance", 1e-12, 0, 1,
+                 "Stop where |step| <= tolerance * (|x| + tolerance); 0 never"),
   };
 }
 
 std::vector<OptionSpec> TrustRegionSpecs() {
   return {
-      Number("initial_trust_region_radius", 1e4,
-             "Start of the trust region (LM: 1/damping); small values keep first steps short", 1e-16, 1e16),
-      Choice(
-          "linear_solver", "dense_qr",
+      NumberSpec("initial_trust_region_radius", 1e4, 1e-16, 1e16,
+                 "Start of the trust region (LM: 1/damping); small values keep first steps short"),
+      ChoiceSpec(
+          "linear_solver", {"dense_qr", "dense_normal_cholesky", "sparse_normal_cholesky"},
           "dense_qr: most accurate; dense_normal_cholesky: faster; sparse_normal_cholesky: many parameters "
-          "of which each residual touches few",
-          {"dense_qr", "dense_normal_cholesky", "sparse_normal_cholesky"}),
+          "of which each residual touches few"),
       {.name = "nonmonotonic_steps",
        .type = OptionType::kFlag,
        .default_value = false,
@@ -100,9 +87,8 @@ std::vector<OptionSpec> CeresOptionSpecs(CeresMethod method) {
   }
   for (OptionSpec& spec : TrustRegionSpecs()) specs.push_back(std::move(spec));
   if (method == CeresMethod::kDogleg) {
-    specs.push_back(Choice("dogleg_type", "traditional",
-                           "traditional: two straight legs; subspace: the best of the plane they span",
-                           {"traditional", "subspace"}));
+    specs.push_back(ChoiceSpec("dogleg_type", {"traditional", "subspace"},
+                               "traditional: two straight legs; subspace: the best of the plane they span"));
   }
   return specs;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/option_specs.h"
 #include "base/parallel.h"
 #include "solvers/particle_swarm.h"
 #include "solvers/quiet_ceres_log.h"
@@ -130,53 +131,31 @@ class ParticleSwarmSolver final : public Solver {
   OptionValue start_box_;
 };
 
-OptionSpec Integer(const std::string& name, int value, int minimum, const std::string& help) {
-  return {.name = name,
-          .type = OptionType::kInteger,
-          .default_value = value,
-          .help = help,
-          .minimum = static_cast<double>(minimum),
-          .maximum = 1e9};
-}
-
-OptionSpec Number(const std::string& name, double value, double minimum, double maximum,
-                  const std::string& help) {
-  return {.name = name,
-          .type = OptionType::kNumber,
-          .default_value = value,
-          .help = help,
-          .minimum = minimum,
-          .maximum = maximum};
-}
-
-OptionSpec Choice(const std::string& name, const std::vector<std::string>& words, const std::string& help) {
-  return {.name = name, .type = OptionType::kChoice, .default_value = words[0], .help = help, .words = words};
-}
-
 }  // namespace
 
 std::vector<OptionSpec> ParticleSwarmSpecs() {
   const Settings defaults;
   return {
-      Integer("swarm_size", defaults.swarm_size, 1, "Particles (the leaf paper: 5)"),
-      Integer("iterations", defaults.iterations, 0, "Moves of the swarm (the leaf paper: 10)"),
-      Choice("inertia", {"constriction", "linear"},
-             "constriction: 0.7298 throughout; linear: 0.9 to 0.4 over the iterations, as in the leaf paper "
-             "(with cognitive: 2, social: 2)"),
-      Number("cognitive", defaults.cognitive, 0, 4, "Pull towards the particle's own best (c1)"),
-      Number("social", defaults.social, 0, 4, "Pull towards its informants' best (c2)"),
-      Number("velocity_limit", defaults.velocity_limit, 1e-9, 1e9,
-             "Longest step in each dimension, as a share of the start box"),
-      Choice("boundary", {"reflect", "clamp", "absorb"},
-             "At a bound: mirrored; put on it with its velocity kept; put on it at rest"),
-      Choice("topology", {"gbest", "ring"}, "Who informs whom: everyone, or two neighbours"),
+      IntegerSpec("swarm_size", defaults.swarm_size, 1, 1e9, "Particles (the leaf paper: 5)"),
+      IntegerSpec("iterations", defaults.iterations, 0, 1e9, "Moves of the swarm (the leaf paper: 10)"),
+      ChoiceSpec(
+          "inertia", {"constriction", "linear"},
+          "constriction: 0.7298 throughout; linear: 0.9 to 0.4 over the iterations, as in the leaf paper "
+          "(with cognitive: 2, social: 2)"),
+      NumberSpec("cognitive", defaults.cognitive, 0, 4, "Pull towards the particle's own best (c1)"),
+      NumberSpec("social", defaults.social, 0, 4, "Pull towards its informants' best (c2)"),
+      NumberSpec("velocity_limit", defaults.velocity_limit, 1e-9, 1e9,
+                 "Longest step in each dimension, as a share of the start box"),
+      ChoiceSpec("boundary", {"reflect", "clamp", "absorb"},
+                 "At a bound: mirrored; put on it with its velocity kept; put on it at rest"),
+      ChoiceSpec("topology", {"gbest", "ring"}, "Who informs whom: everyone, or two neighbours"),
       StartBoxSpec(),
       {.name = "start_at_guess",
        .type = OptionType::kFlag,
        .default_value = defaults.start_at_guess,
        .help = "Put the first particle at the fit's start"},
-      Integer("stall_iterations", defaults.stall_iterations, 0,
-              "Stop after so many iterations without a better best; 0: never"),
+      IntegerSpec("stall_iterations", defaults.stall_iterations, 0, 1e9,
+                  "Stop after so many iterations without a better best; 0: never"),
   };
 }
 

@@ -5,33 +5,10 @@
 #include <limits>
 
 #include "base/errors.h"
+#include "base/option_specs.h"
 
 namespace frond {
 namespace {
-
-OptionSpec Choice(const std::string& name, const std::vector<std::string>& words, const std::string& help) {
-  return {.name = name, .type = OptionType::kChoice, .default_value = words[0], .help = help, .words = words};
-}
-
-OptionSpec Integer(const std::string& name, int value, double minimum, double maximum,
-                   const std::string& help) {
-  return {.name = name,
-          .type = OptionType::kInteger,
-          .default_value = std::int64_t{value},
-          .help = help,
-          .minimum = minimum,
-          .maximum = maximum};
-}
-
-OptionSpec Number(const std::string& name, double value, double minimum, double maximum,
-                  const std::string& help) {
-  return {.name = name,
-          .type = OptionType::kNumber,
-          .default_value = value,
-          .help = help,
-          .minimum = minimum,
-          .maximum = maximum};
-}
 
 OptionSpec Pair(const std::string& name, double first, double second, double minimum, double maximum,
                 const std::string& help) {
@@ -52,8 +29,8 @@ OptionSpec Flag(const std::string& name, bool value, const std::string& help) {
 constexpr double kPetioleWidth = 2;  // mm: the mean of tea leaves (Wu et al. 2021, section 2.3.2)
 
 OptionSpec PetioleWidth() {
-  OptionSpec spec = Number("point_set.petiole_width", 2, 1e-12, 1e12,
-                           "Width of the leaf's base edge, in the input's unit; auto: 2 mm");
+  OptionSpec spec = NumberSpec("point_set.petiole_width", 2, 1e-12, 1e12,
+                               "Width of the leaf's base edge, in the input's unit; auto: 2 mm");
   spec.default_value = std::string("auto");
   spec.words = {"auto"};
   return spec;
@@ -64,36 +41,40 @@ OptionSpec PetioleWidth() {
 std::vector<OptionSpec> LeafSpecs() {
   constexpr double kMany = 100000;
   return {
-      Choice("method", {"distance", "paper"},
-             "distance: least orthogonal distances of all points; paper: slices, point set and B-spline of "
-             "Wu et al. 2021"),
+      ChoiceSpec(
+          "method", {"distance", "paper"},
+          "distance: least orthogonal distances of all points; paper: slices, point set and B-spline of "
+          "Wu et al. 2021"),
       Flag("frame.leave_out_strays", true, "Points far from the sheet have no say in the leaf's frame"),
-      Choice("point_set.kind", {"unordered", "ordered"},
-             "unordered: all points of the selected slices; ordered: margin, midrib and a few between "
-             "(falls back to unordered where no midrib stands out)"),
-      Integer("point_set.slices", 50, 1, kMany, "Slices across the leaf, base and tip apart"),
-      Integer("point_set.selected", 7, 3, kMany, "Slices that are fitted, base and tip included"),
+      ChoiceSpec("point_set.kind", {"unordered", "ordered"},
+                 "unordered: all points of the selected slices; ordered: margin, midrib and a few between "
+                 "(falls back to unordered where no midrib stands out)"),
+      IntegerSpec("point_set.slices", 50, 1, kMany, "Slices across the leaf, base and tip apart"),
+      IntegerSpec("point_set.selected", 7, 3, kMany, "Slices that are fitted, base and tip included"),
       PetioleWidth(),
-      Integer("point_set.left", 2, 0, kMany, "Points of an ordered row between left margin and midrib"),
-      Integer("point_set.right", 2, 0, kMany, "Points of an ordered row between midrib and right margin"),
-      Number("point_set.midrib_threshold", 0.5, 0, 10,
-             "A midrib stands out while its offset from the middle, over the half-width, is below this"),
-      Integer("test_subset.slices", 10, 1, kMany, "Slices of the paper's test subset"),
-      Integer("test_subset.left", 3, 0, kMany, "Points of the test subset between left margin and midrib"),
-      Integer("test_subset.right", 3, 0, kMany, "Points of the test subset between midrib and right margin"),
-      Choice("paper.algorithm", {"algorithm_1", "approximation", "interpolation"},
-             "algorithm_1: knots of each row averaged, any point set; the other two: Algorithm A1, ordered "
-             "sets"),
-      Choice("paper.parametrisation", {"chord", "centripetal", "uniform"}, "Eqs (A5), (A6), (A4)"),
-      Choice(
+      IntegerSpec("point_set.left", 2, 0, kMany, "Points of an ordered row between left margin and midrib"),
+      IntegerSpec("point_set.right", 2, 0, kMany, "Points of an ordered row between midrib and right margin"),
+      NumberSpec("point_set.midrib_threshold", 0.5, 0, 10,
+                 "A midrib stands out while its offset from the middle, over the half-width, is below this"),
+      IntegerSpec("test_subset.slices", 10, 1, kMany, "Slices of the paper's test subset"),
+      IntegerSpec("test_subset.left", 3, 0, kMany,
+                  "Points of the test subset between left margin and midrib"),
+      IntegerSpec("test_subset.right", 3, 0, kMany,
+                  "Points of the test subset between midrib and right margin"),
+      ChoiceSpec(
+          "paper.algorithm", {"algorithm_1", "approximation", "interpolation"},
+          "algorithm_1: knots of each row averaged, any point set; the other two: Algorithm A1, ordered "
+          "sets"),
+      ChoiceSpec("paper.parametrisation", {"chord", "centripetal", "uniform"}, "Eqs (A5), (A6), (A4)"),
+      ChoiceSpec(
           "paper.weights", {"fixed", "free"},
           "free: the solver minimises F = alpha[0] RMSE + alpha[1] max over the test subset by the weights"),
       Pair("paper.alpha", 0.8, 0.2, 0, 1, "Shares of RMSE and maximum in F; their sum is 1"),
       Pair("paper.weight_bounds", 0.1, 10, 1e-6, 1e6,
            "Bounds of each free weight; 1 lies between them (a swarm's start_box should be [0.9, 1.1])"),
-      Choice("paper.projection", {"tracked", "paper"},
-             "tracked: safeguarded Newton from each point's foot at weights of 1; paper: eqs (7), (8), "
-             "appendix A"),
+      ChoiceSpec("paper.projection", {"tracked", "paper"},
+                 "tracked: safeguarded Newton from each point's foot at weights of 1; paper: eqs (7), (8), "
+                 "appendix A"),
   };
 }
 
@@ -171,27 +152,27 @@ std::vector<OptionSpec> SyntheticLeafSpecs() {
   const LeafScanOptions scan;
   const double infinity = std::numeric_limits<double>::infinity();
   std::vector<OptionSpec> specs = {
-      Choice("character", {"by_seed", "hill", "smooth", "wrinkled", "flat"},
-             "Look of the leaf; by_seed: 1 hill, 2 smooth, 3 wrinkled, 4 flat, 5 hill, …"),
-      Integer("points", scan.points, 1, 1e8, "Points of the scan, outliers and petiole included"),
-      Number("noise", scan.noise, 0, 10, "Standard deviation, mm"),
-      Choice("noise_direction", {"isotropic", "normal"},
-             "Noise in every coordinate, or along the surface's normal"),
-      Number("outlier_share", scan.outlier_share, 0, 0.9, "Share of the points thrown off the surface"),
+      ChoiceSpec("character", {"by_seed", "hill", "smooth", "wrinkled", "flat"},
+                 "Look of the leaf; by_seed: 1 hill, 2 smooth, 3 wrinkled, 4 flat, 5 hill, …"),
+      IntegerSpec("points", scan.points, 1, 1e8, "Points of the scan, outliers and petiole included"),
+      NumberSpec("noise", scan.noise, 0, 10, "Standard deviation, mm"),
+      ChoiceSpec("noise_direction", {"isotropic", "normal"},
+                 "Noise in every coordinate, or along the surface's normal"),
+      NumberSpec("outlier_share", scan.outlier_share, 0, 0.9, "Share of the points thrown off the surface"),
       Pair("outlier_distance", scan.outlier_near, scan.outlier_far, 0, 1e6, "How far they are thrown, mm"),
-      Integer("holes", scan.holes, 0, 1000, "Round holes without points"),
-      Number("hole_radius", scan.hole_radius, 0, 1000, "Radius of each, mm"),
-      Number("missing_tip", scan.missing_tip, 0, 0.9, "Share of the length not scanned at the tip"),
-      Number("petiole_length", scan.petiole_length, 0, 1000, "Length of a petiole left on, mm"),
-      Choice("pose", {"random", "standard"},
-             "Any rotation and shift by the seed, or base at 0 and midrib along x"),
-      Choice("unit", {"mm", "cm", "m"}, "Unit of the written coordinates"),
-      Integer("dense_points", scan.dense_points, 0, 1e8, "Points of the clean truth sample"),
+      IntegerSpec("holes", scan.holes, 0, 1000, "Round holes without points"),
+      NumberSpec("hole_radius", scan.hole_radius, 0, 1000, "Radius of each, mm"),
+      NumberSpec("missing_tip", scan.missing_tip, 0, 0.9, "Share of the length not scanned at the tip"),
+      NumberSpec("petiole_length", scan.petiole_length, 0, 1000, "Length of a petiole left on, mm"),
+      ChoiceSpec("pose", {"random", "standard"},
+                 "Any rotation and shift by the seed, or base at 0 and midrib along x"),
+      ChoiceSpec("unit", {"mm", "cm", "m"}, "Unit of the written coordinates"),
+      IntegerSpec("dense_points", scan.dense_points, 0, 1e8, "Points of the clean truth sample"),
   };
   for (const auto& [name, value] : ShapeValues(LeafShape{})) {
     if (name == "seed") continue;
-    OptionSpec spec = Number("shape." + name, value, -infinity, infinity,
-                             "Shape of the leaf instead of the seed's (mm, degrees)");
+    OptionSpec spec = NumberSpec("shape." + name, value, -infinity, infinity,
+                                 "Shape of the leaf instead of the seed's (mm, degrees)");
     spec.default_value = std::string("by_seed");
     spec.type = OptionType::kNumbers;
     spec.words = {"by_seed"};

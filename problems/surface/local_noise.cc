@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "base/median.h"
 
 namespace frond {
 
@@ -39,10 +42,7 @@ double LocalNoise(std::span<const Eigen::Vector3d> points, const std::vector<std
     const Vector6d fit = (terms.transpose() * terms).ldlt().solve(terms.transpose() * height);
     residuals.push_back((terms * fit - height).norm() / std::sqrt(kNeighbours + 1));
   }
-  if (residuals.empty()) return 0;
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle;
+  return Median(std::move(residuals));
 }
 
 }  // namespace frond

@@ -8,15 +8,10 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/median.h"
+
 namespace frond {
 namespace {
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Points by the cube of a grid that they fall into.
 struct CubeGrid {

@@ -22,13 +22,7 @@ void CheckInput(std::span<const Eigen::Vector3d> points, std::array<int, 2> net)
     throw InputError("the " + std::to_string(points.size()) +
                      " usable points have no extent in two directions; a surface needs an area");
   }
-  if (static_cast<std::size_t>(net[0] * net[1]) > points.size()) {
-    const int most = static_cast<int>(std::sqrt(static_cast<double>(points.size())));
-    throw InputError(std::to_string(points.size()) + " usable points cannot hold " + std::to_string(net[0]) +
-                     " x " + std::to_string(net[1]) +
-                     " control points; set surface.control_points to at most " + std::to_string(most) +
-                     " x " + std::to_string(most));
-  }
+  CheckPointCount(points.size(), net);
 }
 
 // The net asked for or, with {0, 0}, the one chosen; `report` and `budget` then bear what the choice took.
@@ -45,6 +39,15 @@ std::array<int, 2> FindNet(const SheetCloud& cloud, const std::optional<NurbsSur
 }
 
 }  // namespace
+
+void CheckPointCount(std::size_t points, std::array<int, 2> control_points) {
+  const auto [u, v] = control_points;
+  if (static_cast<std::size_t>(u) * static_cast<std::size_t>(v) <= points) return;
+  const auto most = std::to_string(static_cast<int>(std::sqrt(static_cast<double>(points))));
+  throw InputError(std::to_string(points) + " usable points cannot hold " + std::to_string(u) + " x " +
+                   std::to_string(v) + " control points; set surface.control_points to at most " + most +
+                   " x " + most);
+}
 
 SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray,
                   const std::optional<NurbsSurface>& start, const SheetFitOptions& options,

@@ -87,6 +87,9 @@ SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::vector<std
                   const std::optional<NurbsSurface>& start, const SheetFitOptions& options,
                   const Solver& solver, const Budget& budget, const SolveContext& context);
 
+// Throws InputError where there are fewer points than control points, naming the largest net that they hold.
+void CheckPointCount(std::size_t points, std::array<int, 2> control_points);
+
 // A surface that was not fitted by FitSheet, judged as FitSheet judges its own; points (in a frame, with
 // their strays) as there. Distances by input point.
 struct SheetJudgement {

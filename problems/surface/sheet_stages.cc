@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.h"
+#include "base/median.h"
 #include "models/knot_vector.h"
 #include "problems/surface/linear_start.h"
 #include "problems/surface/sheet_boundary.h"
@@ -53,10 +54,7 @@ void Append(const SolverReport& stage, double objective_scale, SolverReport* tot
 double RobustDeviation(const std::vector<double>& signed_distances) {
   std::vector<double> distances;
   for (const double d : Thinned(signed_distances, 10000)) distances.push_back(std::abs(d));
-  if (distances.empty()) return 0;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return 1.4826 * *middle;
+  return 1.4826 * Median(std::move(distances));
 }
 
 double RootMeanSquare(const std::vector<double>& values) {
