@@ -41,6 +41,12 @@ std::vector<OptionSpec> TrustRegionSpecs() {
        .type = OptionType::kFlag,
        .default_value = false,
        .help = "Accept steps uphill on the way (at most five in a row); the best is returned"},
+      {.name = "refine",
+       .type = OptionType::kFlag,
+       .default_value = false,
+       .help =
+           "After convergence take Gauss-Newton steps while they shorten, for the digits below the cost's "
+           "rounding; small unbounded fits"},
   };
 }
 
@@ -57,6 +63,9 @@ void SetTrustRegion(const Options& options, CeresMethod method, ceres::Solver::O
   ceres_options->linear_solver_type = LinearSolver(options.Text("linear_solver"));
   ceres_options->sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
   ceres_options->use_nonmonotonic_steps = options.Flag("nonmonotonic_steps");
+  // With bounds Ceres searches along each step. By cubic interpolation that costs Jacobians, two an
+  // iteration; halving costs residuals alone.
+  ceres_options->line_search_interpolation_type = ceres::BISECTION;
   ceres_options->trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
   if (method == CeresMethod::kDogleg) {
     ceres_options->trust_region_strategy_type = ceres::DOGLEG;
@@ -65,17 +74,21 @@ void SetTrustRegion(const Options& options, CeresMethod method, ceres::Solver::O
   }
 }
 
-void SetLineSearch(const Options& options, ceres::Solver::Options* ceres_options) {
+void SetLineSearch(const Options& options, CeresMethod method, ceres::Solver::Options* ceres_options) {
   ceres_options->minimizer_type = ceres::LINE_SEARCH;
-  ceres_options->line_search_direction_type = ceres::LBFGS;
-  ceres_options->line_search_type = ceres::WOLFE;  // Armijo would not keep L-BFGS's matrix positive
-  ceres_options->max_lbfgs_rank = options.Integer("lbfgs_rank");
+  ceres_options->line_search_type = ceres::WOLFE;  // Armijo would not keep the inverse Hessian positive
+  ceres_options->line_search_direction_type = ceres::BFGS;
+  if (method == CeresMethod::kLbfgs) {
+    ceres_options->line_search_direction_type = ceres::LBFGS;
+    ceres_options->max_lbfgs_rank = options.Integer("lbfgs_rank");
+  }
 }
 
 }  // namespace
 
 std::vector<OptionSpec> CeresOptionSpecs(CeresMethod method) {
   std::vector<OptionSpec> specs = CommonSpecs();
+  if (method == CeresMethod::kBfgs) return specs;
   if (method == CeresMethod::kLbfgs) {
     specs.push_back({.name = "lbfgs_rank",
                      .type = OptionType::kInteger,
@@ -102,8 +115,8 @@ ceres::Solver::Options CeresOptionsFrom(const Options& options, int threads, Cer
   ceres_options.num_threads = threads;
   ceres_options.logging_type = ceres::SILENT;
   ceres_options.update_state_every_iteration = true;
-  if (method == CeresMethod::kLbfgs) {
-    SetLineSearch(options, &ceres_options);
+  if (IsLineSearch(method)) {
+    SetLineSearch(options, method, &ceres_options);
   } else {
     SetTrustRegion(options, method, &ceres_options);
   }

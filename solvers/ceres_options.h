@@ -11,7 +11,12 @@
 
 namespace frond {
 
-enum class CeresMethod { kLevenbergMarquardt, kDogleg, kLbfgs };
+enum class CeresMethod { kLevenbergMarquardt, kDogleg, kBfgs, kLbfgs };
+
+// Whether it searches along lines, which cannot hold bounds.
+inline bool IsLineSearch(CeresMethod method) {
+  return method == CeresMethod::kBfgs || method == CeresMethod::kLbfgs;
+}
 
 // The options of `method`, named as in ceres::Solver::Options: max_iterations, function_tolerance, … A fit
 // may change default values before it offers them as its own.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ceres's own minimisers: `lm` (Levenberg–Marquardt), `dogleg` (Powell) and `lbfgs` (line search).
+// Ceres's own minimisers: `lm` (Levenberg–Marquardt), `dogleg` (Powell), `bfgs` and `lbfgs` (line search).
 //
 // They minimise the residual blocks, from the fit's start. The report's objective is that of the x returned;
 // where the fit's objective is not the Ceres cost it is fit.Objective(x), evaluated also at every accepted
@@ -9,7 +9,8 @@
 //
 // Bounds are held by an active set around Ceres's own projection (active_bounds.h).
 //
-// A budget ends a solve after the iteration that used it up.
+// No evaluation begins when the budget is used up, within an iteration (a line search) too: a solve is over
+// it by less than one evaluation with its Jacobian. The first evaluation is always made.
 #pragma once
 
 #include "solvers/solver.h"
@@ -18,6 +19,7 @@ namespace frond {
 
 SolverType LmSolverType();
 SolverType DoglegSolverType();
-SolverType LbfgsSolverType();  // Solve throws ConfigError where a free parameter has a finite bound
+SolverType BfgsSolverType();
+SolverType LbfgsSolverType();  // of both, Solve throws ConfigError where a free parameter has a finite bound
 
 }  // namespace frond

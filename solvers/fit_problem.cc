@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "base/errors.h"
 #include "base/options.h"
@@ -58,11 +59,21 @@ struct BoundedValue {
                    FormatValue(std::vector<double>{lower, upper}));
   }
 
+  void CheckStartBox(double start_lower, double start_upper) const {
+    const std::string box = "its start box " + FormatValue(std::vector<double>{start_lower, start_upper});
+    if (!std::isfinite(start_lower) || !std::isfinite(start_upper) || start_lower > start_upper) {
+      Refuse(box + " is not a finite interval within the bounds");
+    }
+    if (start_lower < lower || start_upper > upper) Refuse(box + " is outside of its bounds");
+  }
+
   void Check() const {
     if (!(lower <= upper)) Refuse("empty bounds");
     if (!block.constant && (block.start[i] < lower || block.start[i] > upper)) {
       Refuse("its start " + FormatValue(block.start[i]) + " is outside of its bounds");
     }
+    if (!block.constant && !block.start_lower.empty())
+      CheckStartBox(block.start_lower[i], block.start_upper[i]);
   }
 };
 
@@ -72,6 +83,10 @@ void CheckParameters(const FitProblem& fit) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const ParameterBlock& block : fit.parameters()) {
     const std::size_t size = block.start.size();
+    if (block.start_lower.size() != block.start_upper.size() ||
+        (!block.start_lower.empty() && block.start_lower.size() != size)) {
+      throw FitError("parameter '" + block.name + "': a start box of the wrong length");
+    }
     if ((!block.lower.empty() && block.lower.size() != size) ||
         (!block.upper.empty() && block.upper.size() != size)) {
       throw FitError("parameter '" + block.name + "': " + std::to_string(block.lower.size()) + " lower and " +
@@ -93,11 +108,14 @@ class LeastSquares::CountingCallback final : public ceres::EvaluationCallback {
   explicit CountingCallback(ceres::EvaluationCallback* state) : state_(state) {}
 
   void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override {
+    if (gate && !gate()) throw EvaluationRefused();
     ++(evaluate_jacobians ? counts_.jacobian_evaluations : counts_.residual_evaluations);
     if (state_ != nullptr) state_->PrepareForEvaluation(evaluate_jacobians, new_evaluation_point);
   }
 
   const Counts& counts() const { return counts_; }
+
+  std::function<bool()> gate;
 
  private:
   ceres::EvaluationCallback* state_;
@@ -150,6 +168,8 @@ void LeastSquares::SetX(std::span<const double> x) {
   }
   std::copy(x.begin(), x.end(), x_.begin());
 }
+
+void LeastSquares::SetGate(std::function<bool()> may_begin) { counting_->gate = std::move(may_begin); }
 
 const LeastSquares::Counts& LeastSquares::counts() const { return counting_->counts(); }
 

@@ -8,6 +8,7 @@
 #include <ceres/problem.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -22,6 +23,8 @@ struct ParameterBlock {
   std::vector<double> lower = {}, upper = {};           // empty, or one bound a value (± infinity allowed)
   std::shared_ptr<ceres::Manifold> manifold = nullptr;  // null: Euclidean
   bool constant = false;                                // held at its start by every solver
+  // Where solvers that draw their first points draw them (within the bounds, finite); empty: the bounds.
+  std::vector<double> start_lower = {}, start_upper = {};
 };
 
 // How the fit's Jacobians come about: an auto-diff or structured one is charged one residual evaluation a
@@ -64,9 +67,13 @@ class FitProblem {
   std::vector<double> StartVector() const;
 };
 
-// Throws FitError naming the parameter block whose bounds have the wrong length or cross, or whose start lies
-// outside of them. Every solver checks this first.
+// Throws FitError naming the parameter block whose bounds have the wrong length or cross, whose start lies
+// outside of them, or whose start box is not finite, crosses or reaches outside of them (constant blocks may
+// have any start and start box). Every solver checks this first.
 void CheckParameters(const FitProblem& fit);
+
+// Thrown through Ceres by an evaluation that LeastSquares::SetGate does not let begin.
+struct EvaluationRefused {};
 
 // One fit as one ceres::Problem, with the values that it owns. Not to be shared between threads.
 class LeastSquares {
@@ -87,6 +94,10 @@ class LeastSquares {
   ceres::Problem& problem() { return *problem_; }
   std::span<double> x() { return x_; }
   void SetX(std::span<const double> x);
+
+  // Asked before each evaluation, those of a line search included: where `may_begin` is false,
+  // EvaluationRefused is thrown, out of ceres::Solve too. problem() cannot be used afterwards.
+  void SetGate(std::function<bool()> may_begin);
   const Counts& counts() const;
 
   // The counts in the budget's unit: residual evaluations, plus n (numeric: 2n) for each evaluation with

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <utility>
 
 #include "solvers/ceres_solvers.h"
 #include "solvers/fit_from.h"
 #include "solvers/option_prefix.h"
 #include "solvers/particle_swarm.h"
+#include "solvers/solve_sequence.h"
 
 namespace frond {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 // Where the evaluations or the seconds are limited, so are the swarm's; else its own iteration limit ends it.
 Budget Share(const Budget& budget, double share) {
   Budget part = budget;
-  if (budget.max_evaluations != std::numeric_limits<std::int64_t>::max()) {
+  if (budget.LimitsEvaluations()) {
     const double evaluations = share * static_cast<double>(budget.max_evaluations);
     part.max_evaluations = std::max<std::int64_t>(1, std::llround(evaluations));
   }
@@ -25,36 +26,11 @@ Budget Share(const Budget& budget, double share) {
   return part;
 }
 
-Budget Rest(const Budget& budget, const SolverReport& used) {
-  Budget rest = budget;
-  if (budget.max_evaluations != std::numeric_limits<std::int64_t>::max()) {
-    rest.max_evaluations -= used.evaluations;
-  }
-  rest.max_seconds -= used.seconds;
-  return rest;
-}
-
-// `second` was run after `first`, from its x.
-SolverReport Joined(const SolverReport& first, const SolverReport& second, double second_objective) {
-  SolverReport report = first;
-  if (second_objective <= first.objective) {
-    report.x = second.x;
-    report.objective = second_objective;
-  }
-  if (second.termination != Termination::kFailed) report.termination = second.termination;
-  report.message = "pso: " + first.message + "; lm: " + second.message;
-  report.evaluations += second.evaluations;
-  report.residual_evaluations += second.residual_evaluations;
-  report.jacobian_evaluations += second.jacobian_evaluations;
-  report.iterations += second.iterations;
-  report.seconds += second.seconds;
-  for (const TracePoint& point : second.trace) {
-    const double best = report.trace.empty()
-                            ? point.best_objective
-                            : std::fmin(report.trace.back().best_objective, point.best_objective);
-    report.trace.push_back({first.evaluations + point.evaluations, first.seconds + point.seconds, best});
-  }
-  return report;
+// What ended the solve: the whole budget has the first word, for the descent had a part of it.
+Termination End(std::optional<Termination> cause, Termination descent) {
+  if (cause && *cause != Termination::kStalled) return *cause;
+  const bool by_itself = descent == Termination::kConverged || descent == Termination::kStalled;
+  return by_itself ? descent : Termination::kIterationLimit;
 }
 
 class PsoLmSolver final : public Solver {
@@ -62,17 +38,33 @@ class PsoLmSolver final : public Solver {
   PsoLmSolver(std::unique_ptr<Solver> pso, std::unique_ptr<Solver> lm, double pso_share)
       : pso_(std::move(pso)), lm_(std::move(lm)), pso_share_(pso_share) {}
 
+  void Check(const FitProblem& fit) const override {
+    pso_->Check(fit);
+    lm_->Check(fit);
+  }
+
   SolverReport Solve(const FitProblem& fit, const Budget& budget,
                      const SolveContext& context) const override {
-    SolverReport swarm = pso_->Solve(fit, Share(budget, pso_share_), context);
-    const Budget rest = Rest(budget, swarm);
-    if (swarm.termination == Termination::kFailed || swarm.termination == Termination::kTarget ||
-        rest.max_evaluations <= 0 || rest.max_seconds <= 0) {
-      return swarm;
+    Check(fit);
+    SolveSequence sequence(budget);
+    const SolverReport swarm = pso_->Solve(fit, Share(sequence.Begin(), pso_share_), context);
+    sequence.Add(swarm, swarm.objective);
+    if (swarm.termination == Termination::kFailed || sequence.Cause()) {
+      return sequence.Finish(sequence.Cause().value_or(swarm.termination), "pso: " + swarm.message);
     }
+    // A fit that tracks feet may report a cost that a fresh look at x corrects: compare by the same function,
+    // for which an evaluation is kept back (where the descent met the target there is nothing to compare).
+    Budget rest = sequence.Begin();
+    if (rest.LimitsEvaluations()) rest.max_evaluations = std::max<std::int64_t>(1, rest.max_evaluations - 1);
     const SolverReport descent = lm_->Solve(FitFrom(fit, swarm.x), rest, context);
-    // A fit that tracks feet may report a cost that a fresh look at x corrects: compare by the same function.
-    return Joined(swarm, descent, fit.Objective(descent.x));
+    if (descent.termination == Termination::kTarget) {
+      sequence.Add(descent, descent.objective);
+    } else {
+      sequence.Add(descent, fit.Objective(descent.x));
+      sequence.CountEvaluation();
+    }
+    return sequence.Finish(End(sequence.Cause(), descent.termination),
+                           "pso: " + swarm.message + "; lm: " + descent.message);
   }
 
  private:

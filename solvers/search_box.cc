@@ -35,16 +35,29 @@ std::vector<double> SearchBox::FullVector(const double* searched) const {
   return full;
 }
 
+std::vector<double> SearchBox::StartPoint() const {
+  std::vector<double> point;
+  for (const std::size_t k : index) point.push_back(x[k]);
+  return point;
+}
+
+std::vector<double> SearchBox::RandomPoint(Random* random) const {
+  std::vector<double> point(size());
+  for (std::size_t d = 0; d < size(); ++d) point[d] = random->Uniform(start_lower[d], start_upper[d]);
+  return point;
+}
+
 OptionSpec StartBoxSpec() {
-  return {.name = "start_box",
-          .type = OptionType::kNumbers,
-          .default_value = std::string("bounds"),
-          .help =
-              "[lower, upper] of the first points, for every parameter (weights: [0.9, 1.1]); bounds: the "
-              "fit's own",
-          .words = {"bounds"},
-          .min_size = 2,
-          .max_size = 2};
+  return {
+      .name = "start_box",
+      .type = OptionType::kNumbers,
+      .default_value = std::string("fit"),
+      .help =
+          "[lower, upper] of the first points, for every parameter (weights: [0.9, 1.1]); fit: the box that "
+          "the fit gives, else its bounds",
+      .words = {"fit"},
+      .min_size = 2,
+      .max_size = 2};
 }
 
 SearchBox MakeSearchBox(const FitProblem& fit, const OptionValue& start_box, const std::string& solver_name) {
@@ -62,16 +75,17 @@ SearchBox MakeSearchBox(const FitProblem& fit, const OptionValue& start_box, con
   for (const ParameterBlock& block : fit.parameters()) {
     if (!block.constant && block.manifold != nullptr) {
       throw ConfigError("solver '" + solver_name + "' cannot search parameter '" + block.name +
-                        "', which lives on a manifold: use lm, dogleg or lbfgs");
+                        "', which lives on a manifold: use lm, dogleg, bfgs or lbfgs");
     }
     for (std::size_t i = 0; !block.constant && i < block.start.size(); ++i) {
       box.index.push_back(offset + i);
       box.lower.push_back(block.lower.empty() ? -kInfinity : block.lower[i]);
       box.upper.push_back(block.upper.empty() ? kInfinity : block.upper[i]);
-      box.start_lower.push_back(given == nullptr ? box.lower.back()
-                                                 : std::max(box.lower.back(), (*given)[0]));
-      box.start_upper.push_back(given == nullptr ? box.upper.back()
-                                                 : std::min(box.upper.back(), (*given)[1]));
+      const bool own = !block.start_lower.empty();
+      const double lower = given != nullptr ? (*given)[0] : own ? block.start_lower[i] : box.lower.back();
+      const double upper = given != nullptr ? (*given)[1] : own ? block.start_upper[i] : box.upper.back();
+      box.start_lower.push_back(std::max(box.lower.back(), lower));
+      box.start_upper.push_back(std::min(box.upper.back(), upper));
       CheckLastValue(box, NameOf(block, i), start_box, solver_name);
     }
     offset += block.start.size();

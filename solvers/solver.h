@@ -14,11 +14,23 @@
 namespace frond {
 
 // When a solve has to stop, whatever the solver. Evaluations are residual evaluations, a Jacobian of n
-// parameters charged n of them (2n where numeric): the same unit for every solver.
+// parameters charged n of them (2n where numeric): the same unit for every solver. No evaluation (of a swarm:
+// no batch) begins after the evaluations or the seconds are used up, the target is reached or progress has
+// stalled.
 struct Budget {
   std::int64_t max_evaluations = std::numeric_limits<std::int64_t>::max();
   double max_seconds = std::numeric_limits<double>::infinity();
   double target_objective = -std::numeric_limits<double>::infinity();
+  // Evaluations spent without a better best. Solvers made of solves judge it between these as well as inside
+  // each.
+  std::int64_t stall_evaluations = std::numeric_limits<std::int64_t>::max();
+
+  bool LimitsEvaluations() const { return max_evaluations != std::numeric_limits<std::int64_t>::max(); }
+
+  // By evaluations or seconds: what ends every solve.
+  bool IsLimited() const {
+    return LimitsEvaluations() || max_seconds < std::numeric_limits<double>::infinity();
+  }
 };
 
 enum class Termination {
@@ -27,7 +39,7 @@ enum class Termination {
   kEvaluationBudget,
   kTimeBudget,
   kIterationLimit,
-  kStalled,  // no progress for the configured number of iterations
+  kStalled,  // no better best in stall_evaluations
   kFailed,   // no usable result; `message` says why
 };
 const char* TerminationName(Termination termination);  // "converged", "evaluation_budget", …
@@ -59,6 +71,11 @@ struct SolveContext {
 class Solver {
  public:
   virtual ~Solver() = default;
+
+  // Throws ConfigError for a fit that this solver does not take, before any evaluation; FitError as
+  // CheckParameters does. Solve does so first, and may find more to refuse (in the budget, in its library).
+  virtual void Check(const FitProblem& /*fit*/) const {}
+
   virtual SolverReport Solve(const FitProblem& fit, const Budget& budget,
                              const SolveContext& context) const = 0;
 };

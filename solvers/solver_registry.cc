@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <utility>
 
 #include "base/errors.h"
 #include "solvers/ceres_solvers.h"
 #include "solvers/hybrid.h"
+#include "solvers/multistart.h"
+#include "solvers/nlopt_solvers.h"
+#include "solvers/pagmo_solvers.h"
 #include "solvers/particle_swarm.h"
 #include "solvers/solver.h"
 
@@ -32,8 +36,12 @@ const char* TerminationName(Termination termination) {
 const std::vector<SolverType>& SolverTypes() {
   static const std::vector<SolverType> types = [] {
     std::vector<SolverType> list = {
-        LmSolverType(), DoglegSolverType(), LbfgsSolverType(), ParticleSwarmSolverType(), PsoLmSolverType(),
+        LmSolverType(),           DoglegSolverType(),        BfgsSolverType(),
+        LbfgsSolverType(),        ParticleSwarmSolverType(), PsoLmSolverType(),
+        MultistartLmSolverType(),
     };
+    for (SolverType& type : PagmoSolverTypes()) list.push_back(std::move(type));
+    for (SolverType& type : NloptSolverTypes()) list.push_back(std::move(type));
     std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
     return list;
   }();

@@ -133,6 +133,27 @@ TEST(FitProblem, Objective_IsReentrant) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST(FitProblem, StartBoxOutOfOrder_IsRefusedByName) {
+  const auto refusal = [](double lower, double upper) -> std::string {
+    RosenbrockFit fit;
+    SetBox(-5, 5, &fit);
+    fit.blocks[0].start_lower = {0, lower};
+    fit.blocks[0].start_upper = {1, upper};
+    try {
+      CheckParameters(fit);
+    } catch (const FitError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal(-5, 5), "accepted");
+  EXPECT_EQ(refusal(3, 2),
+            "parameter 'x'[1]: its start box [3, 2] is not a finite interval within the bounds [-5, 5]");
+  EXPECT_EQ(refusal(0, HUGE_VAL),
+            "parameter 'x'[1]: its start box [0, inf] is not a finite interval within the bounds [-5, 5]");
+  EXPECT_EQ(refusal(0, 6), "parameter 'x'[1]: its start box [0, 6] is outside of its bounds [-5, 5]");
+}
+
 TEST(LeastSquares, SetX_MovesTheProblem) {
   const LineFit fit;
   LeastSquares least_squares(fit, 1);

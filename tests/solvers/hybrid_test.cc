@@ -79,6 +79,35 @@ TEST(PsoLm, WholeShareForTheSwarm_LeavesNothingForLm) {
   EXPECT_EQ(report.termination, Termination::kEvaluationBudget);
 }
 
+TEST(PsoLm, LmRefineOfABoundedFit_IsRefusedBeforeTheSwarmRuns) {
+  for (const char* name : {"pso_lm", "multistart_lm"}) {
+    const RosenbrockFit fit = BoxedRosenbrock();
+    EXPECT_THROW(MakeSolver(name, {{"lm.refine", true}})->Solve(fit, {}, {}), ConfigError) << name;
+    EXPECT_EQ(fit.calls->residual, 0) << name;
+  }
+}
+
+TEST(PsoLm, Check_IsThatOfBoth) {
+  EXPECT_THROW(MakeSolver("pso_lm")->Check(RosenbrockFit()), ConfigError) << "no box to start in";
+  EXPECT_THROW(MakeSolver("pso_lm", {{"lm.refine", true}})->Check(BoxedRosenbrock()), ConfigError);
+  EXPECT_NO_THROW(MakeSolver("pso_lm")->Check(BoxedRosenbrock()));
+}
+
+TEST(PsoLm, TargetMetByLm_NeedsNoOtherEvaluation) {
+  const RosenbrockFit fit = BoxedRosenbrock();
+  const SolverReport report = Solve(fit, {{"pso.iterations", 2}}, {.target_objective = 1e-9});
+  EXPECT_EQ(report.termination, Termination::kTarget);
+  EXPECT_GT(report.jacobian_evaluations, 0);
+  EXPECT_EQ(report.trace.back().evaluations, report.evaluations);
+  EXPECT_EQ(fit.calls->residual, report.residual_evaluations);
+}
+
+TEST(PsoLm, LmAtItsIterationLimit_IsNoBudgetUsedUp) {
+  const SolverReport report =
+      Solve(BoxedRosenbrock(), {{"pso.swarm_size", 10}, {"lm.max_iterations", 1}}, {.max_evaluations = 400});
+  EXPECT_EQ(report.termination, Termination::kIterationLimit) << report.message;
+}
+
 TEST(PsoLm, UnknownSubOption_ThrowsWithNearest) {
   Options options(PsoLmSolverType().options);
   try {

@@ -4,6 +4,7 @@
 #include <ceres/sphere_manifold.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -188,6 +189,77 @@ TEST(SwarmTopology, Ring_HasThreeInformants) {
   EXPECT_EQ(BestInformant(ring[0], best), 4);
 }
 
+TEST(SwarmTopology, VonNeumann_HasFourNeighboursOnATorus) {
+  EXPECT_EQ(TorusRows(40), 5);
+  EXPECT_EQ(TorusRows(20), 4);
+  EXPECT_EQ(TorusRows(7), 1);
+  const auto torus = Informants(SwarmTopology::kVonNeumann, 12);  // 3 rows of 4
+  EXPECT_EQ(torus[5], (std::vector<int>{1, 4, 5, 6, 9}));
+  EXPECT_EQ(torus[0], (std::vector<int>{0, 1, 3, 4, 8}));
+  EXPECT_THROW(Informants(SwarmTopology::kVonNeumann, 5), std::invalid_argument);
+}
+
+TEST(SwarmTopology, Random_EachInformsItselfAndKDrawn) {
+  Random random(5);
+  double links = 0;
+  constexpr int kDraws = 2000, kSize = 20;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const auto informants = RandomInformants(kSize, 3, &random);
+    for (int i = 0; i < kSize; ++i) {
+      EXPECT_TRUE(std::find(informants[i].begin(), informants[i].end(), i) != informants[i].end());
+      EXPECT_TRUE(std::is_sorted(informants[i].begin(), informants[i].end()));
+      links += static_cast<double>(informants[i].size());
+    }
+  }
+  // Each ordered pair of others is linked with probability 1 − (1 − 1/20)³.
+  const double expected = 1 + (kSize - 1) * (1 - std::pow(1 - 1.0 / kSize, 3));
+  EXPECT_NEAR(links / (kDraws * kSize), expected, 0.02);
+}
+
+TEST(Spso2011, Step_LiesInTheBallAboutTheGravityCentre) {
+  // Two particles in the plane, the second one's best the better: G₀ = x + c/3 (p₀ + p₁ − 2x), G₁ = x + c/2
+  // (p₁ − x).
+  const double weight = 1 / (2 * std::log(2.0)), c = 0.5 + std::log(2.0);
+  const SearchBox box = UnitBox(2, 1e9);
+  Settings settings;
+  settings.method = Settings::Method::kStandard2011;
+  settings.swarm_size = 2;
+  settings.start_at_guess = false;
+  double farthest = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    ParticleSwarm swarm(box, settings, &random);
+    const std::vector<double> best = swarm.positions();
+    swarm.Learn(0, 2);
+    swarm.Learn(1, 1);
+    swarm.Move(0);
+    for (int i = 0; i < 2; ++i) swarm.Learn(i, 10);
+    const std::vector<double> x = swarm.positions();
+    std::vector<double> v = {swarm.Velocity(0)[0], swarm.Velocity(0)[1]};
+    swarm.Move(0);
+    double radius = 0, distance = 0;
+    for (int d = 0; d < 2; ++d) {
+      const double centre = c / 3 * (best[d] + best[2 + d] - 2 * x[d]);
+      radius += centre * centre;
+      distance += std::pow(swarm.Position(0)[d] - x[d] - weight * v[d] - centre, 2);
+    }
+    EXPECT_LE(std::sqrt(distance), std::sqrt(radius) * (1 + 1e-12));
+    farthest = std::max(farthest, std::sqrt(distance / radius));
+  }
+  EXPECT_GT(farthest, 0.95);
+}
+
+TEST(Pso, EveryVariant_ReachesTheMinimumOfBoxedRosenbrock) {
+  for (const char* topology : {"gbest", "ring", "von_neumann", "random"}) {
+    for (const char* method : {"canonical", "spso2011"}) {
+      const SolverReport report =
+          Solve(BoxedRosenbrock(),
+                {{"topology", std::string(topology)}, {"method", std::string(method)}, {"iterations", 400}});
+      EXPECT_LT(report.objective, 1e-5) << topology << ", " << method;
+    }
+  }
+}
+
 TEST(Pso, OnBoxedRosenbrock_ReachesMinimum) {
   for (const char* topology : {"gbest", "ring"}) {
     for (const char* boundary : {"clamp", "reflect", "absorb"}) {
@@ -251,7 +323,8 @@ TEST(Pso, ParameterOnAManifold_IsRefusedByName) {
   RosenbrockFit fit = BoxedRosenbrock();
   fit.blocks[0].manifold = std::make_shared<ceres::SphereManifold<ceres::DYNAMIC>>(2);
   EXPECT_EQ(MessageOfSolve(fit, {}),
-            "solver 'pso' cannot search parameter 'x', which lives on a manifold: use lm, dogleg or lbfgs");
+            "solver 'pso' cannot search parameter 'x', which lives on a manifold: use lm, dogleg, bfgs or "
+            "lbfgs");
 }
 
 TEST(Pso, ConstantBlock_IsNotSearched) {
@@ -299,16 +372,50 @@ TEST(Pso, NoFiniteStart_FailsAtOnce) {
   SetBox(-10, 10, &fit);
   const SolverReport report = Solve(fit, {});
   EXPECT_EQ(report.termination, Termination::kFailed);
-  EXPECT_EQ(report.message, "no finite objective at any of the 40 starting positions");
+  EXPECT_EQ(report.message,
+            "no finite objective at any of the 40 points evaluated; set 'start_box' to where the fit can be "
+            "evaluated");
   EXPECT_EQ(report.x, fit.StartVector());
 }
 
-TEST(Pso, NoProgress_StallsAfterTheConfiguredIterations) {
+TEST(Pso, Guesses_AreWhereFurtherParticlesStart) {
   RosenbrockFit fit = BoxedRosenbrock();
-  fit.blocks[0].start = {1, 1};  // nothing is better
-  const SolverReport report = Solve(fit, {{"stall_iterations", 7}});
-  EXPECT_EQ(report.termination, Termination::kStalled);
-  EXPECT_EQ(report.iterations, 7);
+  const SolverReport report =
+      Solve(fit, {{"guesses", Values{3, 3, 1, 1}}, {"iterations", 0}, {"swarm_size", 4}});
+  EXPECT_EQ(report.x, (Values{1, 1}));
+  EXPECT_EQ(report.trace.back().evaluations, 3);
+}
+
+TEST(Pso, InvalidCombinations_AreRefusedByName) {
+  const auto message = [](const NamedOptions& options) { return MessageOfSolve(BoxedRosenbrock(), options); };
+  EXPECT_EQ(message({{"method", std::string("spso2011")}, {"inertia", std::string("linear")}}),
+            "option 'inertia' does not apply to 'method: spso2011'");
+  EXPECT_EQ(
+      message({{"topology", std::string("von_neumann")}, {"swarm_size", 7}}),
+      "option 'swarm_size' is 7, which makes no torus for 'topology: von_neumann': take a product, such as "
+      "4 * 5");
+  EXPECT_EQ(message({{"informed", 4}}), "option 'informed' does not apply to 'topology: auto'");
+  EXPECT_EQ(message({{"guesses", Values{1, 2, 3}}}),
+            "option 'guesses' of solver 'pso' has 3 values, expected a multiple of the 2 free parameters");
+  EXPECT_EQ(message({{"guesses", Values{1, 6}}}),
+            "option 'guesses' of solver 'pso': value 2, 6, is outside of the fit's bounds [-5, 5]");
+  EXPECT_EQ(message({{"guesses", Values{1, 1, 2, 2}}, {"swarm_size", 2}}),
+            "option 'guesses' of solver 'pso' holds 2 guesses, more than 'swarm_size' 2 has particles for");
+}
+
+TEST(Pso, FipsWithoutTopology_IsARing) {
+  const NamedOptions fips = {{"method", std::string("fips")}, {"iterations", 20}};
+  NamedOptions ring = fips;
+  ring.emplace_back("topology", std::string("ring"));
+  EXPECT_EQ(Solve(BoxedRosenbrock(), fips).x, Solve(BoxedRosenbrock(), ring).x);
+}
+
+TEST(Pso, FitsOwnStartBox_IsWhereItStarts) {
+  RosenbrockFit fit;
+  fit.blocks[0].start_lower = {0.9, 0.9};
+  fit.blocks[0].start_upper = {1.1, 1.1};
+  const SolverReport report = Solve(fit, {{"start_at_guess", false}, {"iterations", 0}});
+  for (const double x : report.x) EXPECT_NEAR(x, 1, 0.1);
 }
 
 TEST(Pso, OtherObjective_IsWhatItMinimises) {

@@ -2,12 +2,15 @@
 // What every registered solver must do, whatever its method: a new one is tested by being registered.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "base/errors.h"
 #include "solvers/solver.h"
 #include "tests/solvers/test_fits.h"
 
@@ -17,7 +20,7 @@ namespace {
 class EverySolver : public testing::TestWithParam<std::string> {
  protected:
   // Bounded for all but those that refuse bounds.
-  bool TakesBounds() const { return GetParam() != "lbfgs"; }
+  bool TakesBounds() const { return GetParam() != "lbfgs" && GetParam() != "bfgs"; }
 
   template <typename Fit>
   Fit Boxed(Fit fit, double lower, double upper) const {
@@ -30,7 +33,10 @@ class EverySolver : public testing::TestWithParam<std::string> {
   }
 
   // Enough for every method on two parameters, small enough for a test.
-  static Budget Enough() { return {.max_evaluations = 8000}; }
+  static Budget Enough() { return {.max_evaluations = GetParam().starts_with("pagmo.") ? 40000 : 8000}; }
+
+  // Bees settle slowly.
+  static double Slack() { return GetParam() == "pagmo.bee_colony" ? 100 : 1; }
 };
 
 void ExpectSameResult(const SolverReport& a, const SolverReport& b) {
@@ -57,16 +63,16 @@ TEST_P(EverySolver, SameSeed_GivesTheSameBitsForAnyThreads) {
 
 TEST_P(EverySolver, OnRosenbrock_ReachesMinimum) {
   const SolverReport report = Solve(Boxed(RosenbrockFit(), -5, 5), Enough());
-  EXPECT_NEAR(report.x[0], 1, 1e-3) << report.message;
-  EXPECT_NEAR(report.x[1], 1, 2e-3);
+  EXPECT_NEAR(report.x[0], 1, 1e-3 * Slack()) << report.message;
+  EXPECT_NEAR(report.x[1], 1, 2e-3 * Slack());
   EXPECT_NE(report.termination, Termination::kFailed);
 }
 
 TEST_P(EverySolver, OnLinearLeastSquares_ReachesMinimum) {
   const SolverReport report = Solve(Boxed(LineFit(), -10, 10), Enough());
-  EXPECT_NEAR(report.x[0], 1.5, 1e-4);
-  EXPECT_NEAR(report.x[1], 1.0, 1e-4);
-  EXPECT_NEAR(report.objective, 0.5, 1e-7);
+  EXPECT_NEAR(report.x[0], 1.5, 1e-4 * Slack());
+  EXPECT_NEAR(report.x[1], 1.0, 1e-4 * Slack());
+  EXPECT_NEAR(report.objective, 0.5, 1e-7 * Slack() * Slack());
 }
 
 TEST_P(EverySolver, Report_HoldsTheObjectiveOfItsX) {
@@ -119,12 +125,12 @@ TEST_P(EverySolver, TargetMetAtTheStart_EndsTheSolveThere) {
 }
 
 TEST_P(EverySolver, EvaluationBudget_IsKept) {
-  // The most that one more iteration can cost here: a line search of 20 steps with Jacobians.
-  constexpr std::int64_t kOneIteration = 60;
+  // Over it by less than an evaluation with its Jacobian of two parameters.
+  constexpr std::int64_t kOver = 1;
   for (const std::int64_t budget : {1, 10, 33, 50, 200}) {
     const RosenbrockFit fit = Boxed(RosenbrockFit(), -5, 5);
     const SolverReport report = Solve(fit, {.max_evaluations = budget});
-    EXPECT_LE(report.evaluations, budget + kOneIteration);
+    EXPECT_LE(report.evaluations, std::max<std::int64_t>(budget + kOver, 2));
     EXPECT_TRUE(std::isfinite(report.objective));
     // In the trace: the point before the last was still within the budget.
     if (report.trace.size() > 1) {
@@ -155,18 +161,34 @@ TEST_P(EverySolver, TimeBudget_IsKept) {
   const SolverReport report = Solve(fit, {.max_seconds = 0.2});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_EQ(report.termination, Termination::kTimeBudget) << report.message;
-  EXPECT_LT(seconds, 0.2 + 1.0);
+  EXPECT_LT(seconds, 0.2 + 0.2);
   EXPECT_NEAR(report.seconds, seconds, 0.2);
 }
 
 TEST_P(EverySolver, Counts_EqualTheFunctorsOwn) {
   const RosenbrockFit fit = Boxed(RosenbrockFit(), -5, 5);
   const SolverReport report = Solve(fit, {.max_evaluations = 500});
-  // A hybrid looks once more at its end result, by the objective, to compare.
-  const std::int64_t comparison = GetParam() == "pso_lm" ? 1 : 0;
-  EXPECT_EQ(report.residual_evaluations, fit.calls->residual - comparison);
+  EXPECT_EQ(report.residual_evaluations, fit.calls->residual);
   EXPECT_EQ(report.jacobian_evaluations, fit.calls->jacobian);
   EXPECT_EQ(report.evaluations, report.residual_evaluations + 2 * report.jacobian_evaluations);
+}
+
+TEST_P(EverySolver, NumericJacobians_AreCountedAsTheyAre) {
+  const NumericRosenbrockFit fit = Boxed(NumericRosenbrockFit(), -5, 5);
+  const SolverReport report = Solve(fit, {.max_evaluations = 500});
+  // Central differences call the functor at x and twice a parameter; the residuals at x come with the
+  // Jacobian's charge.
+  EXPECT_EQ(report.residual_evaluations + 5 * report.jacobian_evaluations, fit.calls->residual);
+  EXPECT_EQ(report.evaluations, report.residual_evaluations + 4 * report.jacobian_evaluations);
+}
+
+TEST_P(EverySolver, WithoutProgress_Stalls) {
+  RosenbrockFit fit = Boxed(RosenbrockFit(), -5, 5);
+  fit.blocks[0].start = {1, 1};  // nothing is better
+  const SolverReport report = Solve(fit, {.max_evaluations = 100000, .stall_evaluations = 300});
+  EXPECT_TRUE(report.termination == Termination::kStalled || report.termination == Termination::kConverged)
+      << TerminationName(report.termination);
+  EXPECT_LE(report.evaluations, 300 + 45);
 }
 
 TEST_P(EverySolver, Start_IsNotWorsened) {
@@ -190,6 +212,7 @@ TEST_P(EverySolver, Trace_DescendsToTheReport) {
 }
 
 TEST_P(EverySolver, NanEverywhere_FailsWithAMessage) {
+  if (GetParam() == "nlopt.bobyqa") return;  // takes two parameters or more
   testing::internal::CaptureStderr();
   const SolverReport report = Solve(Boxed(PartlyNanFit(1, HUGE_VAL), -5, 5), {.max_evaluations = 500});
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the cause belongs into the report alone";
@@ -197,6 +220,98 @@ TEST_P(EverySolver, NanEverywhere_FailsWithAMessage) {
   EXPECT_FALSE(report.message.empty());
   EXPECT_TRUE(std::isnan(report.objective));
   EXPECT_EQ(report.x, std::vector<double>{1});
+}
+
+TEST(Bobyqa, SingleParameter_IsRefusedByName) {
+  PartlyNanFit fit(1, -10);
+  SetBox(-5, 5, &fit);
+  try {
+    MakeSolver("nlopt.bobyqa")->Solve(fit, {}, {});
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "solver 'nlopt.bobyqa' needs two free parameters or more: use nlopt.nelder_mead");
+  }
+  EXPECT_EQ(fit.calls->residual, 0);
+}
+
+std::string RefusalOf(const std::string& solver,
+                      const std::vector<std::pair<std::string, OptionValue>>& options,
+                      const Budget& budget = {}) {
+  RosenbrockFit fit;
+  SetBox(-5, 5, &fit);
+  try {
+    MakeSolver(solver, options)->Solve(fit, budget, {});
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(fit.calls->residual, 0);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Nlopt, NothingThatStopsIt_IsRefusedByName) {
+  const std::vector<std::pair<std::string, OptionValue>> zero = {{"xtol", 0.0}, {"ftol", 0.0}};
+  EXPECT_EQ(
+      RefusalOf("nlopt.nelder_mead", zero, {.target_objective = 0}),
+      "solver 'nlopt.nelder_mead' never stops with options 'xtol' and 'ftol' both 0 and no limit in the "
+      "budget: set one");
+  EXPECT_EQ(RefusalOf("nlopt.nelder_mead", zero, {.max_evaluations = 50}), "accepted");
+}
+
+TEST(Bobyqa, StepBeyondHalfTheBounds_IsRefusedByName) {
+  EXPECT_EQ(
+      RefusalOf("nlopt.bobyqa", {{"initial_step", 0.6}}),
+      "option 'initial_step' of solver 'nlopt.bobyqa' is 0.6, longer than half of the bounds' width: set "
+      "0.5 or less");
+  EXPECT_EQ(RefusalOf("nlopt.bobyqa", {{"initial_step", 0.5}}), "accepted");
+}
+
+TEST(PagmoSwarms, NeighboursOfATopologyWithoutAny_AreRefusedByName) {
+  for (const char* topology : {"gbest", "von_neumann"}) {
+    EXPECT_EQ(RefusalOf("pagmo.pso_gen", {{"topology", std::string(topology)}, {"neighbours", 2}}),
+              std::string("option 'neighbours' does not apply to 'topology: ") + topology + "'");
+  }
+}
+
+TEST(PagmoSolvers, CutOffInTheFirstPopulation_CountNoIterations) {
+  RosenbrockFit fit;
+  SetBox(-5, 5, &fit);
+  EXPECT_EQ(MakeSolver("pagmo.pso")->Solve(fit, {.max_evaluations = 10}, {}).iterations, 0);
+}
+
+TEST(PagmoSolvers, ExceptionsOfTheFit_AreItsOwn) {
+  class Throwing final : public RosenbrockFit {
+   public:
+    double Objective(std::span<const double> x) const override {
+      if (++evaluations > 60) throw std::invalid_argument("the fit's own");
+      return RosenbrockFit::Objective(x);
+    }
+    mutable std::atomic<int> evaluations{0};
+  };
+  for (const char* name : {"pagmo.pso", "pagmo.pso_gen", "pagmo.cmaes"}) {
+    Throwing fit;
+    SetBox(-5, 5, &fit);
+    try {
+      MakeSolver(name)->Solve(fit, {}, {});
+      FAIL() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_STREQ(error.what(), "the fit's own") << name;
+    }
+  }
+}
+
+TEST(CeresSolvers, TimeBudget_IncludesTheFitsState) {
+  class SlowState final : public RosenbrockFit {
+   public:
+    std::shared_ptr<ceres::EvaluationCallback> CreateState(const std::vector<double*>& /*blocks*/,
+                                                           int /*threads*/) const override {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      return nullptr;
+    }
+  };
+  const SolverReport report = MakeSolver("lm")->Solve(SlowState(), {.max_seconds = 0.04}, {});
+  EXPECT_EQ(report.termination, Termination::kTimeBudget);
+  EXPECT_GE(report.seconds, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registered, EverySolver, testing::ValuesIn([] {

@@ -37,7 +37,8 @@ TEST(SolverRegistry, UnknownName_ThrowsWithNearest) {
     FindSolverType("levenberg_marquardt");
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_NE(std::string(error.what()).find("expected one of dogleg, lbfgs, lm, pso, pso_lm"),
+    EXPECT_NE(std::string(error.what())
+                  .find("expected one of bfgs, dogleg, lbfgs, lm, multistart_lm, nlopt.bobyqa"),
               std::string::npos)
         << error.what();
   }

@@ -2,6 +2,7 @@
 #include "tests/solvers/test_fits.h"
 
 #include <ceres/autodiff_cost_function.h>
+#include <ceres/numeric_diff_cost_function.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,6 +81,13 @@ struct TwoPulls {
 };
 
 }  // namespace
+
+void NumericRosenbrockFit::AddResiduals(const std::vector<double*>& values,
+                                        ceres::EvaluationCallback* /*state*/, ceres::Problem* problem) const {
+  problem->AddResidualBlock(new ceres::NumericDiffCostFunction<RosenbrockResidual, ceres::CENTRAL, 2, 2>(
+                                new RosenbrockResidual{calls.get()}),
+                            nullptr, values[0]);
+}
 
 RosenbrockFit::RosenbrockFit() { blocks = {{.name = "x", .start = {-1.2, 1}}}; }
 

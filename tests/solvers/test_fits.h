@@ -38,6 +38,14 @@ class RosenbrockFit : public TestFit {
                     ceres::Problem* problem) const override;
 };
 
+// The same with central differences.
+class NumericRosenbrockFit : public RosenbrockFit {
+ public:
+  NumericRosenbrockFit() { derivatives_charged = Derivatives::kNumeric; }
+  void AddResiduals(const std::vector<double*>& blocks, ceres::EvaluationCallback* state,
+                    ceres::Problem* problem) const override;
+};
+
 // NIST StRD Misra1a, y = b1 (1 − exp(−b2 x)), from its start 2; b1 and b2 are blocks of their own.
 class Misra1aFit : public TestFit {
  public:
