@@ -6,8 +6,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "base/errors.h"
@@ -19,6 +22,12 @@ namespace {
 
 // While no weight is this many times another one, a point's foot on the start surface leads to its foot.
 constexpr double kNear = 1.4;
+// While none is this many times another one, the nearest of a few hundred samples does; beyond, the surface
+// may pass a point in several places.
+constexpr double kSpread = 3;
+
+// Where starts are drawn.
+constexpr double kStartLower = 0.9, kStartUpper = 1.1;
 
 // The rows R of LeafWeightResidual at a converged foot.
 Eigen::Matrix3d RowsAt(const SurfaceCells::Jet1& s, const FootPoint& foot) {
@@ -89,6 +98,59 @@ class WeightsState final : public ceres::EvaluationCallback {
   std::vector<FootPoint> feet_;
 };
 
+// Samples of a surface at evenly spaced parameters, to be searched whole: cheaper than a tree for the few
+// hundred that a small net needs, which have to be made anew for every x.
+class SampleGrid {
+ public:
+  SampleGrid() = default;
+  explicit SampleGrid(const SurfaceCells& cells)
+      : u_(Lines<kLinesU>(cells.basis_u())), v_(Lines<kLinesV>(cells.basis_v())) {
+    for (std::size_t k = 0; k < kSize; ++k) {
+      const Eigen::Vector3f sample = cells.Evaluate(u_[k / kLinesV], v_[k % kLinesV]).cast<float>();
+      x_[k] = sample.x();
+      y_[k] = sample.y();
+      z_[k] = sample.z();
+    }
+  }
+
+  // The parameters of the sample nearest to `point`, if nearer than by the root of `squared_distance`; of
+  // samples equally near to 1 in 10,000 the first.
+  std::optional<Eigen::Vector2d> NearerThan(double squared_distance, const Eigen::Vector3d& point) const {
+    // Floats above 0 are ordered like their bits. The sample's number takes the place of the last ones, so
+    // that a plain minimum, which the compiler makes vectors of, finds distance and sample together.
+    constexpr std::int32_t kNumber = 511;
+    static_assert(kSize <= kNumber + 1);
+    const Eigen::Vector3f p = point.cast<float>();
+    std::int32_t least = std::numeric_limits<std::int32_t>::max();
+    for (std::size_t k = 0; k < kSize; ++k) {
+      const float dx = x_[k] - p[0], dy = y_[k] - p[1], dz = z_[k] - p[2];
+      const float squared = dx * dx + dy * dy + dz * dz;
+      least =
+          std::min(least, (std::bit_cast<std::int32_t>(squared) & ~kNumber) | static_cast<std::int32_t>(k));
+    }
+    const auto squared = static_cast<double>(std::bit_cast<float>(least & ~kNumber));
+    if (!(squared < squared_distance)) return std::nullopt;
+    const auto k = static_cast<std::size_t>(least & kNumber);
+    return Eigen::Vector2d(u_[k / kLinesV], v_[k % kLinesV]);
+  }
+
+ private:
+  static constexpr std::size_t kLinesU = 14, kLinesV = 22, kSize = kLinesU * kLinesV;  // leaves are long in v
+
+  template <std::size_t kCount>
+  static std::array<double, kCount> Lines(const BSplineBasis& basis) {
+    std::array<double, kCount> lines;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      lines[i] = basis.begin() + (basis.end() - basis.begin()) * static_cast<double>(i) / (kCount - 1);
+    }
+    return lines;
+  }
+
+  std::array<double, kLinesU> u_{};
+  std::array<double, kLinesV> v_{};
+  std::array<float, kSize> x_{}, y_{}, z_{};
+};
+
 struct StateResidual {
   const LeafWeightResidual* residual;
 
@@ -120,7 +182,9 @@ LeafWeightsFit::LeafWeightsFit(NurbsSurface surface, std::vector<Eigen::Vector3d
   parameters_.push_back({.name = "weights",
                          .start = std::vector<double>(count, 1.0),
                          .lower = std::vector<double>(count, options.lower),
-                         .upper = std::vector<double>(count, options.upper)});
+                         .upper = std::vector<double>(count, options.upper),
+                         .start_lower = std::vector<double>(count, std::max(options.lower, kStartLower)),
+                         .start_upper = std::vector<double>(count, std::min(options.upper, kStartUpper))});
   start_cells_.Update(surface_.control_points(), parameters_[0].start);
   const FootPointSearch search(start_cells_);
   foot_options_ = search.options();
@@ -132,14 +196,23 @@ void LeafWeightsFit::FindFeet(std::span<const double> x, SurfaceCells* cells, st
   cells->Update(surface_.control_points(), x);
   feet->resize(points_.size());
   const auto [least, largest] = std::minmax_element(x.begin(), x.end());
-  const bool near = *largest <= kNear * *least;
-  const std::optional<FootPointSearch> search =
-      near ? std::nullopt : std::optional<FootPointSearch>(std::in_place, *cells, 2000);
+  const double ratio = *largest / *least;
+  const bool sampled = ratio > kNear && ratio <= kSpread;
+  const SampleGrid grid = sampled ? SampleGrid(*cells) : SampleGrid();
+  std::optional<FootPointSearch> search;
+  if (ratio > kSpread) search.emplace(*cells, 2000);
   ParallelFor(points_.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const FootPoint& start = start_feet_[i];
-      (*feet)[i] = near ? RefineFootPoint(*cells, points_[i], start.u, start.v, foot_options_)
-                        : search->FindFrom(points_[i], start.u, start.v, FootPointSearch::kThorough);
+      Eigen::Vector2d start(start_feet_[i].u, start_feet_[i].v);
+      if (search) {
+        (*feet)[i] = search->FindFrom(points_[i], start[0], start[1], FootPointSearch::kThorough);
+        continue;
+      }
+      if (sampled) {
+        const double tracked = (cells->Evaluate(start[0], start[1]) - points_[i]).squaredNorm();
+        start = grid.NearerThan(tracked, points_[i]).value_or(start);
+      }
+      (*feet)[i] = RefineFootPoint(*cells, points_[i], start[0], start[1], foot_options_);
     }
   });
 }
@@ -177,6 +250,7 @@ double LeafWeightsFit::Objective(std::span<const double> x) const {
     FindFeet(x, &cells, &feet, 1);
     for (const FootPoint& foot : feet) squared.push_back(foot.squared_distance);
   }
+  if (options_.sum_of_squares) return std::accumulate(squared.begin(), squared.end(), 0.0) / 2;
   return ErrorOf(squared, options_.objective).objective;
 }
 

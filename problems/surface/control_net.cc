@@ -3,12 +3,16 @@
 
 #include <ceres/manifold.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace frond {
 namespace {
+
+// Half-widths of the start box: of a coordinate as a share of the net's diagonal, and of a log-weight.
+constexpr double kReach = 0.02, kWeightReach = 0.1;
 
 // Union–find over control points.
 int Root(std::vector<int>& parent, int k) {
@@ -60,7 +64,19 @@ int ControlNet::block_size() const {
   return unknowns_ == SurfaceUnknowns::kControlPoints ? 3 : unknowns_ == SurfaceUnknowns::kWeights ? 1 : 4;
 }
 
+void ControlNet::SetStartBox(ParameterBlock* block, double reach) const {
+  for (std::size_t i = 0; i < block->start.size(); ++i) {
+    const bool weight = unknowns_ != SurfaceUnknowns::kControlPoints && i + 1 == block->start.size();
+    const double half = weight ? kWeightReach : reach;
+    block->start_lower.push_back(block->start[i] - half);
+    block->start_upper.push_back(block->start[i] + half);
+  }
+}
+
 std::vector<ParameterBlock> ControlNet::ParameterBlocks() const {
+  Eigen::AlignedBox3d extent;
+  for (const Eigen::Vector3d& point : points_) extent.extend(point);
+  const double reach = kReach * extent.diagonal().norm();
   std::vector<ParameterBlock> blocks(static_cast<std::size_t>(num_blocks_));
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ParameterBlock& block = blocks[static_cast<std::size_t>(block_of_[k])];
@@ -68,6 +84,7 @@ std::vector<ParameterBlock> ControlNet::ParameterBlocks() const {
     block.name = "control_point_" + std::to_string(k);
     if (unknowns_ != SurfaceUnknowns::kWeights) block.start.assign(points_[k].data(), points_[k].data() + 3);
     if (unknowns_ != SurfaceUnknowns::kControlPoints) block.start.push_back(std::log(weights_[k]));
+    SetStartBox(&block, reach);
   }
   if (unknowns_ == SurfaceUnknowns::kWeights) blocks[0].constant = true;
   if (unknowns_ == SurfaceUnknowns::kBoth) {

@@ -32,6 +32,7 @@ class ControlNet {
   int block_of(std::size_t control_point) const { return block_of_[control_point]; }
 
   // Start values; the first weight is held constant where weights are free (their common scale is a gauge).
+  // Starts are drawn about them, within 2 % of the net's diagonal and, in ω, 0.1.
   std::vector<ParameterBlock> ParameterBlocks() const;
 
   // Control points and weights of the values in `blocks`.
@@ -45,6 +46,8 @@ class ControlNet {
   const std::vector<double>& start_weights() const { return weights_; }
 
  private:
+  void SetStartBox(ParameterBlock* block, double reach) const;
+
   SurfaceUnknowns unknowns_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> weights_;

@@ -37,6 +37,32 @@ TEST(LeafWeights, Objective_IsThatOfAGlobalSearch) {
   }
 }
 
+TEST(LeafWeights, ObjectiveOfSpreadWeights_IsThatOfAGlobalSearchOrAbove) {
+  int above = 0, all = 0;
+  for (int leaf = 1; leaf <= kLeaves; ++leaf) {
+    const LeafWeightsFit fit = WeightsOf(leaf);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      Random random(seed);
+      std::vector<double> x(25);
+      for (double& w : x) w = std::exp(random.Uniform(-0.5, 0.5));
+      const double global = fit.Metrics(x).at("objective");
+      EXPECT_GT(fit.Objective(x), global * (1 - 1e-6)) << "leaf " << leaf;
+      above += fit.Objective(x) > global * (1 + 1e-6) ? 1 : 0;
+      ++all;
+    }
+  }
+  EXPECT_LE(above, all / 50);
+}
+
+TEST(LeafWeights, SumOfSquares_IsAnObjectiveToo) {
+  const LeafWeightsFit fit = WeightsOf(1, {.objective = {}, .sum_of_squares = true});
+  EXPECT_TRUE(fit.ObjectiveIsLeastSquares());
+  const double rmse = fit.Metrics(fit.StartVector()).at("rmse");
+  EXPECT_NEAR(fit.Objective(fit.StartVector()), 0.5 * 90 * rmse * rmse, 1e-6);
+  LeastSquares least_squares(fit, 1);
+  EXPECT_NEAR(least_squares.Cost(), fit.Objective(fit.StartVector()), 1e-9);
+}
+
 TEST(LeafWeights, Objective_IsTheSumOfItsShares) {
   const LeafWeightsFit fit = WeightsOf(1, {.objective = {.rmse_share = 0.3, .max_share = 0.7}});
   const auto metrics = fit.Metrics(fit.StartVector());
