@@ -15,6 +15,7 @@
 #include "experiments/convert.h"
 #include "experiments/experiment.h"
 #include "experiments/message.h"
+#include "experiments/study/study.h"
 #include "experiments/sweep.h"
 #include "experiments/synth.h"
 #include "experiments/version.h"
@@ -38,14 +39,18 @@ constexpr char kHelp[] = R"(frond: scans of natural objects to exact CAD surface
 usage: frond COMMAND [ARGUMENTS] [--flags]
 
   fit CONFIG      fit one scan (or all runs of a config's sweep) and write a run directory
+  study CONFIG [FOLDER...]
+                  compare solvers: problems x solvers x repetitions, then tables, profiles, tests; goes on where
+                  it was stopped; takes over results from FOLDERs of the same study run elsewhere
+  report FOLDER   write the report of a study again
   check CONFIG    say whether a config is right, without running it
-  list [NAME]     fits, solvers, synthetic scans and formats; or one's options
+  list [NAME]     fits, solvers, problem sets, synthetic scans and formats; or one's options
   synth KIND      make a synthetic scan with its truth: leaf
   convert IN OUT  surfaces, clouds and meshes from one format to another
 
   --set="a.b=1; c.d=[2, 3]"  config values (synth: its options); may be repeated
   --out=PATH                 where to write (runs/NAME)
-  --overwrite                replace an existing run directory
+  --overwrite                replace an existing run directory (study: begin anew)
   --threads=N                threads; 0: all cores. Results do not depend on it
   --seed=N                   seed, instead of the config's
   --quiet                    no progress, no summary
@@ -75,6 +80,12 @@ void PrintSummary(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "metrics.json";
   if (std::filesystem::exists(file)) {
     const RunMetrics run = ReadMetricsJson(file);
+    if (run.input.points == 0) {
+      std::cout << run.problem << ": objective " << run.solver.objective << ", " << run.solver.termination
+                << ", " << run.solver.evaluations << " evaluations, " << run.seconds << " s\n"
+                << folder.string() << "\n";
+      return;
+    }
     std::cout << run.problem << ": " << run.input.points << " points, rmse " << run.metrics.Number("rmse")
               << " " << run.unit << ", max " << run.metrics.Number("max") << " " << run.unit << ", area "
               << run.metrics.Number("area") << " " << run.unit << "^2, " << run.metrics.Number("outliers")
@@ -87,6 +98,34 @@ void Fit(const std::vector<std::string>& arguments) {
   CheckCount(arguments, 1, 1, "fit CONFIG [--set=…] [--out=DIR] [--overwrite]");
   const bool progress = !FLAGS_quiet && isatty(STDERR_FILENO) != 0;
   PrintSummary(FitConfig(arguments[1], Flags(), FLAGS_out, FLAGS_overwrite, progress));
+}
+
+void Study(const std::vector<std::string>& arguments) {
+  CheckCount(arguments, 1, 1000, "study CONFIG [FOLDER...] [--set=…] [--out=DIR] [--overwrite]");
+  const bool progress = !FLAGS_quiet && isatty(STDERR_FILENO) != 0;
+  const RunFlags flags = Flags();
+  const StudyRunOptions options{.workers = flags.threads,
+                                .overwrite = FLAGS_overwrite,
+                                .progress = progress,
+                                .merge = {arguments.begin() + 2, arguments.end()}};
+  const StudyOutcome outcome = RunStudy(arguments[1], flags, FLAGS_out, options);
+  if (outcome.missing > 0) {
+    PrintMessage(outcome.folder.string() + ": " + std::to_string(outcome.missing) + " of " +
+                 std::to_string(outcome.jobs) +
+                 " jobs have no result yet; run the other parts, then the study with their folders");
+  }
+  if (outcome.failed > 0) {
+    PrintMessage("warning: " + std::to_string(outcome.failed) + " of " + std::to_string(outcome.jobs) +
+                 " jobs failed; see " +
+                 (outcome.folder / (outcome.missing > 0 ? "jobs" : "runs.csv")).string());
+  }
+  if (!FLAGS_quiet) std::cout << outcome.text << outcome.folder.string() << "\n";
+}
+
+void Report(const std::vector<std::string>& arguments) {
+  CheckCount(arguments, 1, 1, "report FOLDER");
+  const StudyOutcome outcome = ReportStudy(arguments[1]);
+  if (!FLAGS_quiet) std::cout << outcome.text << outcome.folder.string() << "\n";
 }
 
 void Check(const std::vector<std::string>& arguments) {
@@ -120,7 +159,8 @@ void Dispatch(const std::vector<std::string>& arguments) {
     void (*run)(const std::vector<std::string>&);
   };
   constexpr Command kCommands[] = {
-      {"fit", Fit}, {"check", Check}, {"list", List}, {"synth", Synth}, {"convert", ConvertFiles}};
+      {"fit", Fit},   {"study", Study}, {"report", Report},       {"check", Check},
+      {"list", List}, {"synth", Synth}, {"convert", ConvertFiles}};
   std::vector<std::string> names;
   for (const Command& command : kCommands) {
     if (arguments[0] == command.name) return command.run(arguments);

@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "experiments/experiment.h"
 #include "experiments/fit_type.h"
+#include "experiments/study/study_sets.h"
 #include "experiments/synth.h"
 #include "io/mesh_file.h"
 #include "io/point_cloud_file.h"
@@ -27,7 +28,7 @@ void PrintOptions(const std::string& name, const std::string& help, const std::v
 }
 
 void PrintNames(const std::string& title, const std::vector<std::string>& names, std::ostream& out) {
-  out << "  " << std::left << std::setw(16) << title;
+  out << "  " << std::left << std::setw(20) << title;
   for (std::size_t k = 0; k < names.size(); ++k) out << (k > 0 ? ", " : "") << names[k];
   out << "\n";
 }
@@ -35,7 +36,7 @@ void PrintNames(const std::string& title, const std::vector<std::string>& names,
 template <typename Types>
 void PrintTypes(const std::string& title, const Types& types, std::ostream& out) {
   out << title << "\n";
-  for (const auto& type : types) out << "  " << std::left << std::setw(16) << type.name << type.help << "\n";
+  for (const auto& type : types) out << "  " << std::left << std::setw(20) << type.name << type.help << "\n";
 }
 
 void PrintFormats(std::ostream& out) {
@@ -49,9 +50,11 @@ void PrintFormats(std::ostream& out) {
 }  // namespace
 
 void PrintList(const std::string& what, std::ostream& out) {
-  std::vector<std::string> names = {"fits", "solvers", "synth", "formats"};
+  std::vector<std::string> names = {"fits", "solvers", "sets", "synth", "formats"};
   if (what.empty() || what == "fits") PrintTypes("fits (problem.type)", FitTypes(), out);
   if (what.empty() || what == "solvers") PrintTypes("solvers (solver.type)", SolverTypes(), out);
+  if (what.empty() || what == "sets")
+    PrintTypes("problem sets (problems.NAME.set of a study)", StudySetTypes(), out);
   if (what.empty() || what == "synth") PrintTypes("synthetic scans (frond synth)", SynthKinds(), out);
   if (what == "synth") {
     for (const SynthKind& kind : SynthKinds())
@@ -71,6 +74,7 @@ void PrintList(const std::string& what, std::ostream& out) {
   };
   print_matching(FitTypes());
   print_matching(SolverTypes());
+  print_matching(StudySetTypes());
   if (!found) print_matching(SynthKinds());
   if (what == "leaf") out << "(`frond list synth` gives the options of synthetic leaves)\n";
   if (found) return;

@@ -8,6 +8,7 @@
 
 #include "base/errors.h"
 #include "experiments/message.h"
+#include "experiments/study/study_plan.h"
 #include "experiments/sweep.h"
 #include "experiments/version.h"
 #include "io/run_directory.h"
@@ -45,7 +46,7 @@ Options SolverOptions(const ConfigFile& config, const FitType& fit, const Option
 }
 
 Budget ReadBudget(const ConfigFile& config) {
-  config.CheckKeys("budget", {"evaluations", "seconds", "target"});
+  config.CheckKeys("budget", {"evaluations", "seconds", "target", "stall"});
   Budget budget;
   if (config.Has("budget.evaluations")) {
     budget.max_evaluations = config.Integer("budget.evaluations");
@@ -56,6 +57,10 @@ Budget ReadBudget(const ConfigFile& config) {
     if (!(budget.max_seconds > 0)) config.Fail("budget.seconds", "'seconds' must be above 0");
   }
   if (config.Has("budget.target")) budget.target_objective = config.Number("budget.target");
+  if (config.Has("budget.stall")) {
+    budget.stall_evaluations = config.Integer("budget.stall");
+    if (budget.stall_evaluations < 1) config.Fail("budget.stall", "'stall' must be at least 1");
+  }
   return budget;
 }
 
@@ -107,9 +112,15 @@ ResolvedConfig Experiment::Resolved() const {
   ResolvedConfig resolved;
   resolved.Add("name", name);
   resolved.Add("seed", static_cast<std::int64_t>(seed));
-  AddInput(input, &resolved);
+  if (!input.none()) AddInput(input, &resolved);
   resolved.Add("problem.type", problem_type);
-  resolved.AddSection("problem", problem);
+  if (FindFitType(problem_type).takes_input) {
+    resolved.AddSection("problem", problem);
+  } else {  // of the sets, only what is set: the others' options would stand there without effect
+    for (const OptionSpec& spec : problem.specs()) {
+      if (problem.IsSet(spec.name)) resolved.Add("problem." + spec.name, problem.Value(spec.name));
+    }
+  }
   resolved.Add("solver.type", solver_type);
   resolved.AddSection("solver", solver);
   const Budget none;
@@ -118,7 +129,9 @@ ResolvedConfig Experiment::Resolved() const {
   if (budget.max_seconds != none.max_seconds) resolved.Add("budget.seconds", budget.max_seconds);
   if (budget.target_objective != none.target_objective)
     resolved.Add("budget.target", budget.target_objective);
-  resolved.Add("output.formats", formats);
+  if (budget.stall_evaluations != none.stall_evaluations)
+    resolved.Add("budget.stall", budget.stall_evaluations);
+  if (!input.none()) resolved.Add("output.formats", formats);
   return resolved;
 }
 
@@ -147,6 +160,12 @@ Experiment ReadExperiment(const ConfigFile& config, const RunFlags& flags) {
   } catch (const ConfigError& error) {
     config.Fail("solver", error.what());
   }
+  if (!fit.takes_input && config.Has("input")) {
+    config.Fail("input", "a fit of type '" + fit.name + "' takes no input: leave 'input' out");
+  }
+  if (!fit.takes_input && config.Has("output.formats")) {
+    config.Fail("output.formats", "a fit of type '" + fit.name + "' has no surface: leave 'formats' out");
+  }
   const std::int64_t seed = config.Integer("seed", 0);
   if (seed < 0) config.Fail("seed", "'seed' must not be negative");
   std::string name = config.Text("name", std::filesystem::path(config.name()).stem().string());
@@ -155,13 +174,13 @@ Experiment ReadExperiment(const ConfigFile& config, const RunFlags& flags) {
   }
   return {.name = std::move(name),
           .seed = flags.seed.value_or(static_cast<std::uint64_t>(seed)),
-          .input = ReadInputSource(config),
+          .input = fit.takes_input ? ReadInputSource(config) : InputSource(),
           .problem_type = fit.name,
           .problem = std::move(problem),
           .solver_type = solver.name,
           .solver = std::move(solver_options),
           .budget = ReadBudget(config),
-          .formats = ReadFormats(config)};
+          .formats = fit.takes_input ? ReadFormats(config) : std::vector<std::string>()};
 }
 
 RunResult RunExperiment(const Experiment& experiment, int threads) {
@@ -203,6 +222,9 @@ std::filesystem::path FitConfig(const std::filesystem::path& config_path, const 
                                 const std::filesystem::path& out, bool overwrite, bool progress) {
   ConfigFile config = ConfigFile::Load(config_path);
   if (!flags.set.empty()) config.Override(flags.set);
+  if (IsStudy(config)) {
+    throw ConfigError(config.name() + ": is a study's config (it has 'problems'); run it with `frond study`");
+  }
   if (config.Has("sweep")) return RunSweep(config, flags, out, overwrite, progress);
   const Experiment experiment = ReadExperiment(config, flags);
   const std::filesystem::path target = out.empty() ? std::filesystem::path("runs") / experiment.name : out;

@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "experiments/leaf_experiment.h"
+#include "experiments/standard_experiment.h"
 #include "experiments/surface_experiment.h"
 
 namespace frond {
@@ -10,6 +11,7 @@ namespace frond {
 const std::vector<FitType>& FitTypes() {
   static const std::vector<FitType> types = {
       LeafFitType(),
+      StandardFitType(),
       SurfaceFitType(),
   };
   return types;

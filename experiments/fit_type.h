@@ -44,6 +44,7 @@ struct FitType {
   std::function<FitOutcome(const RunInput& input, const Options& problem, const Solver& solver,
                            const Budget& budget, const SolveContext& context)>
       run;
+  bool takes_input = true;  // else `input` has to be left out
 };
 
 // All fits, sorted by name. A new one is one file and one line in fit_type.cc.

@@ -34,6 +34,8 @@ std::vector<OptionSpec> Specs() {
   return specs;
 }
 
+constexpr double kWeightsRadius = 10;
+
 // The paper's own net and degrees, for its method.
 OptionDefaults DependentDefaults(const Options& problem) {
   if (LeafMethodFrom(problem) != LeafMethod::kPaper) return {};
@@ -185,9 +187,10 @@ OptionDefaults SolverDefaults(const Options& problem, const std::string& solver)
   if (LeafMethodFrom(problem) == LeafMethod::kDistance) {
     return SheetFitSolverDefaults(solver, SheetFitOptionsFrom(problem));
   }
-  // MATH.md §2: weights from [0.9, 1.1], one particle at 1; elsewhere a small swarm makes F worse.
-  if (solver == "pso") return {{"start_box", std::vector<double>{0.9, 1.1}}};
-  if (solver == "pso_lm") return {{"pso.start_box", std::vector<double>{0.9, 1.1}}};
+  // A first step as long as weights may well move: Ceres's own radius of 1e4 is cut down for many iterations
+  // first.
+  if (solver == "lm") return {{"initial_trust_region_radius", kWeightsRadius}};
+  if (solver == "pso_lm") return {{"lm.initial_trust_region_radius", kWeightsRadius}};
   return {};
 }
 

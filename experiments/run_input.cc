@@ -65,6 +65,11 @@ void AddInput(const InputSource& source, ResolvedConfig* resolved) {
 RunInput LoadInput(const InputSource& source, std::uint64_t seed) {
   RunInput input;
   input.unit = source.unit;
+  if (source.none()) {
+    input.description = "no input";
+    input.unit = "none";
+    return input;
+  }
   if (source.synthetic_leaf) {
     const std::uint64_t leaf = *source.synthetic_leaf;
     LeafScanOptions options;

@@ -20,6 +20,8 @@ struct InputSource {
   std::optional<std::uint64_t> synthetic_leaf;  // the seed of a leaf made in memory (`input.synthetic_leaf`)
   std::string unit = "mm";
   std::size_t points = 0;  // thin to about this many by a voxel grid; 0: all
+
+  bool none() const { return cloud.empty() && !synthetic_leaf; }  // of a fit that takes no input
 };
 
 // A run's data. `description` stands for the file in messages and metrics.
@@ -39,7 +41,8 @@ std::vector<OptionSpec> InputSpecs();
 InputSource ReadInputSource(const ConfigFile& config);
 void AddInput(const InputSource& source, ResolvedConfig* resolved);
 
-// Reads or makes the points. `seed` places the voxel grid when they are thinned. Throws InputError.
+// Reads or makes the points; none where the source is none. `seed` places the voxel grid when they are
+// thinned. Throws InputError.
 RunInput LoadInput(const InputSource& source, std::uint64_t seed);
 
 }  // namespace frond

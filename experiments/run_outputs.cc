@@ -47,10 +47,12 @@ void WriteOutliers(const RunResult& result, const std::filesystem::path& path) {
 std::string LogText(const Experiment& experiment, const RunResult& result) {
   std::ostringstream log;
   log << "run " << experiment.name << ": " << experiment.problem_type << " by " << result.metrics.solver.name
-      << "\n"
-      << "input " << result.input.description << ": " << result.input.report.rows << " rows, "
-      << result.input.report.dropped_not_finite << " not finite, " << result.input.report.merged_duplicates
-      << " duplicates, " << result.input.cloud.points.size() << " points used\n";
+      << "\n";
+  if (!experiment.input.none()) {
+    log << "input " << result.input.description << ": " << result.input.report.rows << " rows, "
+        << result.input.report.dropped_not_finite << " not finite, " << result.input.report.merged_duplicates
+        << " duplicates, " << result.input.cloud.points.size() << " points used\n";
+  }
   for (const StageTime& stage : result.outcome.stages) {
     log << "stage " << stage.name << ": " << stage.seconds << " s\n";
   }
@@ -76,8 +78,10 @@ void WriteRun(const Experiment& experiment, const RunResult& result, const std::
   }
   WriteTrace(run.File("trace.csv"), trace);
   WriteSurfaces(experiment, result, run);
-  WritePointCloud(run.File("deviation.ply"), result.input.cloud, {result.outcome.signed_distances, {}});
-  WriteOutliers(result, run.File("outliers.csv"));
+  if (!experiment.input.none()) {
+    WritePointCloud(run.File("deviation.ply"), result.input.cloud, {result.outcome.signed_distances, {}});
+    WriteOutliers(result, run.File("outliers.csv"));
+  }
   WriteFileBytes(run.File("log.txt"), LogText(experiment, result));
   run.Commit();
 }

@@ -11,7 +11,8 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "experiments/message.h"
-#include "experiments/sweep_plot.h"
+#include "experiments/study/study.h"
+#include "experiments/study/svg_plot.h"
 #include "io/file_bytes.h"
 #include "io/run_directory.h"
 
@@ -153,7 +154,11 @@ std::string Plot(const std::string& title, const std::vector<std::string>& axes,
   const auto x_axis = static_cast<std::size_t>(std::find(axes.begin(), axes.end(), request.x) - axes.begin());
   std::vector<PlotPanel> panels;
   for (const std::string& metric : request.y) {
-    PlotPanel panel{request.x, metric, {}};
+    PlotPanel panel{.title = "",
+                    .x = {.label = request.x},
+                    .y = {.label = metric, .scale = AxisScale::kLinear, .lower = 0},
+                    .shape = LineShape::kSegments,
+                    .series = {}};
     for (const Group& group : groups) {
       std::string label;
       for (std::size_t k = 0; k < axes.size(); ++k) {
@@ -161,15 +166,15 @@ std::string Plot(const std::string& title, const std::vector<std::string>& axes,
         const std::string key = axes[k].substr(axes[k].rfind('.') + 1);
         label += (label.empty() ? "" : ", ") + key + " " + FormatValue(group.values[k]);
       }
-      auto line = std::find_if(panel.lines.begin(), panel.lines.end(),
-                               [&](const auto& l) { return l.label == label; });
-      if (line == panel.lines.end()) line = panel.lines.insert(line, {label, {}, {}});
-      line->x.push_back(AsNumber(group.values[x_axis]));
-      line->y.push_back(MeanOf(group, metric));
+      auto series = std::find_if(panel.series.begin(), panel.series.end(),
+                                 [&](const PlotSeries& s) { return s.label == label; });
+      if (series == panel.series.end()) series = panel.series.insert(series, {label, {}});
+      series->line.x.push_back(AsNumber(group.values[x_axis]));
+      series->line.y.push_back(MeanOf(group, metric));
     }
     panels.push_back(std::move(panel));
   }
-  return PlotSvg(title, panels);
+  return PlotSvg(title, panels, true);
 }
 
 std::optional<PlotRequest> ReadPlot(const ConfigFile& config,
@@ -336,6 +341,7 @@ std::filesystem::path RunSweep(const ConfigFile& config, const RunFlags& flags,
 std::size_t CheckConfig(const std::filesystem::path& path, const RunFlags& flags) {
   ConfigFile config = ConfigFile::Load(path);
   if (!flags.set.empty()) config.Override(flags.set);
+  if (IsStudy(config)) return CheckStudy(config, flags);
   if (!config.Has("sweep")) {
     (void)ReadExperiment(config, flags);
     return 1;

@@ -36,16 +36,6 @@ TEST(ReadExperiment, PapersMethod_HasThePapersNetUnlessToldOtherwise) {
   EXPECT_EQ(own.problem.Integers("surface.control_points"), (std::vector<int>{6, 4}));
 }
 
-TEST(ReadExperiment, SwarmOverTheWeights_StartsNearOneUnlessToldOtherwise) {
-  const std::string paper = kHead + "problem: {type: leaf, method: paper, paper: {weights: free}}\n";
-  EXPECT_EQ(ReadText(paper + "solver: {type: pso}\n").solver.Numbers("start_box"),
-            (std::vector<double>{0.9, 1.1}));
-  EXPECT_EQ(ReadText(paper + "solver: {type: pso_lm}\n").solver.Numbers("pso.start_box"),
-            (std::vector<double>{0.9, 1.1}));
-  EXPECT_EQ(ReadText(paper + "solver: {type: pso, start_box: [0.5, 2]}\n").solver.Numbers("start_box"),
-            (std::vector<double>{0.5, 2}));
-}
-
 TEST(ReadExperiment, UnknownKeys_AreNamedWithPlaceAndNearestKey) {
   EXPECT_TRUE(
       Holds(Complaint(kHead + "problem: {type: leaf}\nslover: {type: lm}\n"), "fit.yaml:3:1: unknown key"));
@@ -136,6 +126,29 @@ TEST(ReadExperiment, ResolvedConfig_ReadsBackToItself) {
   EXPECT_EQ(ReadText(yaml).budget.max_evaluations, 900);
   EXPECT_EQ(ReadText(yaml).budget.max_seconds, 2.5);
   EXPECT_EQ(ReadText(yaml).budget.target_objective, 0.1);
+}
+
+TEST(ReadExperiment, ResolvedConfigOfEverySwarm_ReadsBackToItself) {
+  for (const char* swarm :
+       {"topology: gbest", "method: fips", "method: spso2011", "topology: random, informed: 4"}) {
+    const std::string yaml =
+        ReadText(kHead +
+                 "problem: {type: leaf, paper: {weights: free}, method: paper}\nsolver: {type: pso, " +
+                 swarm + "}\n")
+            .Resolved()
+            .Yaml();
+    EXPECT_EQ(ReadText(yaml).Resolved().Yaml(), yaml);
+  }
+}
+
+TEST(ReadExperiment, ResolvedConfigOfEveryStandardSet_ReadsBackToItself) {
+  for (const char* set :
+       {"set: functions, functions: {function: sphere}", "set: nist, nist: {problem: misra1a, start: 1}",
+        "set: more_wild, more_wild: {problem: mw07_rosenbrock_2}"}) {
+    const std::string yaml =
+        ReadText("problem: {type: standard, " + std::string(set) + "}").Resolved().Yaml();
+    EXPECT_EQ(ReadText(yaml).Resolved().Yaml(), yaml);
+  }
 }
 
 }  // namespace
