@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/parallel.h"
-
 namespace frond {
 namespace {
 
@@ -17,7 +15,7 @@ constexpr double kNotEvaluated = std::numeric_limits<double>::quiet_NaN();
 
 SearchedObjective::SearchedObjective(const FitProblem& fit, const SearchBox& box, const Budget& budget,
                                      int threads, SolverReport* report)
-    : fit_(fit), box_(box), watch_(budget), threads_(threads), report_(report) {
+    : fit_(fit), box_(box), watch_(budget), team_(threads), report_(report) {
   report_->x = box.x;
 }
 
@@ -27,7 +25,7 @@ void SearchedObjective::Evaluate(std::span<const double> points, std::span<doubl
       std::clamp<std::int64_t>(left, 0, static_cast<std::int64_t>(objectives.size())));
   std::fill(objectives.begin(), objectives.end(), kNotEvaluated);
   const bool first_ever = report_->evaluations == 0;
-  ParallelFor(count, 1, threads_, [&](std::size_t i, std::size_t) {
+  team_.For(count, 1, [&](std::size_t i, std::size_t) {
     if (!(first_ever && i == 0) && watch_.TimeIsUp()) return;
     const double objective = fit_.Objective(box_.FullVector(points.data() + i * box_.size()));
     objectives[i] = std::isnan(objective) ? std::numeric_limits<double>::infinity() : objective;

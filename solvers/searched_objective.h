@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/parallel.h"
 #include "solvers/budget_watch.h"
 #include "solvers/search_box.h"
 
@@ -43,7 +44,7 @@ class SearchedObjective {
   const FitProblem& fit_;
   const SearchBox& box_;
   BudgetWatch watch_;
-  int threads_;
+  WorkerTeam team_;
   SolverReport* report_;
 };
 

@@ -125,5 +125,31 @@ TEST(ParallelFor, AfterAThrow_NoBodyIsRunning) {
   EXPECT_EQ(running, 0);
 }
 
+TEST(WorkerTeam, UsedAgainAndAgain_DoesEveryRoundWhole) {
+  for (const int threads : {1, 2, 4}) {
+    WorkerTeam team(threads);
+    for (std::size_t round = 1; round <= 5000; ++round) {
+      const std::size_t count = round % 7;
+      std::atomic<std::size_t> sum{0};
+      team.For(count, 1, [&](std::size_t i, std::size_t) { sum += i + 1; });
+      ASSERT_EQ(sum, count * (count + 1) / 2) << round;
+    }
+  }
+}
+
+TEST(WorkerTeam, AfterAnException_WorksOn) {
+  WorkerTeam team(3);
+  for (int round = 0; round < 200; ++round) {
+    EXPECT_THROW(team.For(20, 1,
+                          [](std::size_t i, std::size_t) {
+                            if (i == 7) throw std::runtime_error("seven");
+                          }),
+                 std::runtime_error);
+    std::atomic<int> calls{0};
+    team.For(20, 1, [&](std::size_t, std::size_t) { ++calls; });
+    ASSERT_EQ(calls, 20);
+  }
+}
+
 }  // namespace
 }  // namespace frond
