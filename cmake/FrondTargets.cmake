@@ -27,6 +27,8 @@ function(frond_compile_options target)
   endif()
   if(FROND_NATIVE)
     target_compile_options(${target} PUBLIC -march=native)
+    # Objects of pagmo that hold Eigen matrices are freed here but allocated there, by libraries without AVX.
+    target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16)
   endif()
 endfunction()
 
