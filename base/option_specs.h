@@ -30,6 +30,19 @@ inline OptionSpec IntegerSpec(const std::string& name, std::int64_t value, doubl
           .maximum = maximum};
 }
 
+// An integer, or `auto`, the default.
+inline OptionSpec AutoIntegerSpec(const std::string& name, double minimum, double maximum,
+                                  const std::string& help) {
+  OptionSpec spec = IntegerSpec(name, 0, minimum, maximum, help);
+  spec.default_value = std::string("auto");
+  spec.words = {"auto"};
+  return spec;
+}
+
+inline OptionSpec FlagSpec(const std::string& name, bool value, const std::string& help) {
+  return {.name = name, .type = OptionType::kFlag, .default_value = value, .help = help};
+}
+
 // The first word is the default.
 inline OptionSpec ChoiceSpec(const std::string& name, const std::vector<std::string>& words,
                              const std::string& help) {

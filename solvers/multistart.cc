@@ -67,16 +67,10 @@ class MultistartLmSolver final : public Solver {
 }  // namespace
 
 SolverType MultistartLmSolverType() {
-  OptionSpec starts =
-      IntegerSpec("starts", 0, 1, 1e9, "Descents; auto: all that a budget allows, 20 without one");
-  starts.default_value = std::string("auto");
-  starts.words = {"auto"};
-  std::vector<OptionSpec> specs = {starts,
-                                   StartBoxSpec(),
-                                   {.name = "start_at_guess",
-                                    .type = OptionType::kFlag,
-                                    .default_value = true,
-                                    .help = "Descend from the fit's start first"}};
+  const OptionSpec starts =
+      AutoIntegerSpec("starts", 1, 1e9, "Descents; auto: all that a budget allows, 20 without one");
+  std::vector<OptionSpec> specs = {starts, StartBoxSpec(),
+                                   FlagSpec("start_at_guess", true, "Descend from the fit's start first")};
   const SolverType lm = LmSolverType();
   for (OptionSpec& spec : WithPrefix("lm", lm.options)) specs.push_back(std::move(spec));
   return {"multistart_lm", "Levenberg-Marquardt from many starts, the best of all", std::move(specs),

@@ -139,19 +139,17 @@ class NloptSolver final : public Solver {
 };
 
 SolverType Type(const std::string& name, const std::string& help, nlopt_algorithm algorithm) {
-  return {name,
-          help,
-          {StartBoxSpec(),
-           {.name = "start_at_guess",
-            .type = OptionType::kFlag,
-            .default_value = true,
-            .help = "Begin at the fit's start, else at a point drawn in the start box"},
-           NumberSpec("initial_step", 0.25, 1e-12, 1, "First step, as a share of the start box"),
-           NumberSpec("xtol", 1e-12, 0, 1, "Converged where the points' relative change is less"),
-           NumberSpec("ftol", 0, 0, 1, "Converged where the objective's relative change is less; 0 never")},
-          [name, algorithm](const Options& options) -> std::unique_ptr<Solver> {
-            return std::make_unique<NloptSolver>(name, algorithm, options);
-          }};
+  return {
+      name,
+      help,
+      {StartBoxSpec(),
+       FlagSpec("start_at_guess", true, "Begin at the fit's start, else at a point drawn in the start box"),
+       NumberSpec("initial_step", 0.25, 1e-12, 1, "First step, as a share of the start box"),
+       NumberSpec("xtol", 1e-12, 0, 1, "Converged where the points' relative change is less"),
+       NumberSpec("ftol", 0, 0, 1, "Converged where the objective's relative change is less; 0 never")},
+      [name, algorithm](const Options& options) -> std::unique_ptr<Solver> {
+        return std::make_unique<NloptSolver>(name, algorithm, options);
+      }};
 }
 
 }  // namespace

@@ -171,17 +171,10 @@ class PagmoSolver final : public Solver {
 };
 
 std::vector<OptionSpec> PopulationSpecs(int least, int size) {
-  OptionSpec generations = IntegerSpec("generations", 0, 1, kUnlimitedGenerations,
-                                       "auto: all that a budget allows, 1000 without one");
-  generations.default_value = std::string("auto");
-  generations.words = {"auto"};
   return {IntegerSpec("population_size", size, least, 1e6, "Individuals"),
-          generations,
-          StartBoxSpec(),
-          {.name = "start_at_guess",
-           .type = OptionType::kFlag,
-           .default_value = true,
-           .help = "Put the first individual at the fit's start"}};
+          AutoIntegerSpec("generations", 1, kUnlimitedGenerations,
+                          "auto: all that a budget allows, 1000 without one"),
+          StartBoxSpec(), FlagSpec("start_at_guess", true, "Put the first individual at the fit's start")};
 }
 
 // pagmo stops at 1e-6 by default, which leaves few digits (MATH.md §7).

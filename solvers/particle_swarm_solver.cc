@@ -141,18 +141,14 @@ SwarmTopology TopologyFrom(const std::string& name, Settings::Method method) {
 
 std::vector<OptionSpec> ParticleSwarmSpecs() {
   const Settings defaults;
-  OptionSpec iterations =
-      IntegerSpec("iterations", 0, 0, kUnlimitedIterations,
-                  "Moves of the swarm (the leaf paper: 10); auto: all that a budget allows, "
-                  "1000 without one");
-  iterations.default_value = std::string("auto");
-  iterations.words = {"auto"};
   return {
       ChoiceSpec("method", {"canonical", "fips", "spso2011"},
                  "canonical: the leaf paper's eqs 12 and 13; fips: pulled by all informants; spso2011: "
                  "Clerc's standard, blind to rotations"),
       IntegerSpec("swarm_size", defaults.swarm_size, 1, 1e9, "Particles (the leaf paper: 5)"),
-      iterations,
+      AutoIntegerSpec("iterations", 0, kUnlimitedIterations,
+                      "Moves of the swarm (the leaf paper: 10); auto: all that a budget allows, "
+                      "1000 without one"),
       ChoiceSpec(
           "inertia", {"constriction", "linear"},
           "constriction: 0.7298 throughout; linear: 0.9 to 0.4 over the iterations, as in the leaf paper "
@@ -174,10 +170,7 @@ std::vector<OptionSpec> ParticleSwarmSpecs() {
       IntegerSpec("informed", defaults.informed, 1, 1e6,
                   "Particles that each one informs (topology: random)"),
       StartBoxSpec(),
-      {.name = "start_at_guess",
-       .type = OptionType::kFlag,
-       .default_value = defaults.start_at_guess,
-       .help = "Put the first particle at the fit's start"},
+      FlagSpec("start_at_guess", defaults.start_at_guess, "Put the first particle at the fit's start"),
       {.name = "guesses",
        .type = OptionType::kNumbers,
        .default_value = std::string("none"),

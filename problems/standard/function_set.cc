@@ -14,10 +14,6 @@ const std::vector<std::string>& FunctionWords() {
   return words;
 }
 
-OptionSpec Flag(const std::string& name, const std::string& help) {
-  return {.name = name, .type = OptionType::kFlag, .default_value = false, .help = help};
-}
-
 TestProblem MakeProblem(const std::string& function, int dimension, const AnalyticPlacement& placement) {
   std::string name = function + "_" + std::to_string(dimension);
   if (placement.shift) name += "_shifted";
@@ -54,8 +50,8 @@ ProblemSetType FunctionSetType() {
           .help = "Functions of global optimisation with minimum 0, in their customary boxes",
           .options = {ChoiceSpec("function", FunctionWords(), "One of them, or all"),
                       IntegerSpec("dimension", 10, 2, 1000, "Parameters of each"),
-                      Flag("shift", "Move the minimiser to a random place in the box"),
-                      Flag("rotate", "Turn the axes at random about the minimiser"),
+                      FlagSpec("shift", false, "Move the minimiser to a random place in the box"),
+                      FlagSpec("rotate", false, "Turn the axes at random about the minimiser"),
                       IntegerSpec("instance", 1, 0, 1e9, "Which random shift and rotation")},
           .problems = FunctionProblems};
 }
