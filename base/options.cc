@@ -44,6 +44,11 @@ OptionValue Normalised(const OptionSpec& spec, OptionValue value) {
   if (IsList(spec.type)) {
     if (const auto* x = std::get_if<double>(&value)) value = std::vector<double>{*x};
   }
+  if (spec.type == OptionType::kRows) {
+    if (const auto* row = std::get_if<std::vector<double>>(&value)) {
+      value = row->empty() ? OptionRows() : OptionRows{*row};
+    }
+  }
   return value;
 }
 
@@ -70,6 +75,14 @@ bool Accepts(const OptionSpec& spec, const OptionValue& value) {
                return InRange(spec, x) && (!IsIntegral(spec.type) || IsWhole(x));
              });
     }
+    case OptionType::kRows: {
+      const auto* rows = std::get_if<OptionRows>(&value);
+      return rows != nullptr && rows->size() >= spec.min_size && rows->size() <= spec.max_size &&
+             std::all_of(rows->begin(), rows->end(), [&](const std::vector<double>& row) {
+               return row.size() == spec.row_size &&
+                      std::all_of(row.begin(), row.end(), [&](double x) { return InRange(spec, x); });
+             });
+    }
     case OptionType::kText:
     case OptionType::kChoice:
       return false;
@@ -92,6 +105,21 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
     before_last = std::exchange(last, row);
   }
   return last[b.size()];
+}
+
+// "2", "2 to 9", "1 or more": how many values or rows a list may hold.
+std::string DescribeCount(const OptionSpec& spec) {
+  std::string text = std::to_string(spec.min_size);
+  if (spec.max_size > spec.min_size) {
+    text += spec.max_size > 1000000 ? " or more" : " to " + std::to_string(spec.max_size);
+  }
+  return text;
+}
+
+std::string FormatList(const std::vector<double>& list) {
+  std::string text = "[";
+  for (const double x : list) text += (text.size() > 1 ? ", " : "") + FormatNumber(x);
+  return text + "]";
 }
 
 template <typename T>
@@ -122,11 +150,11 @@ std::string DescribeAccepted(const OptionSpec& spec) {
       break;
     case OptionType::kIntegers:
     case OptionType::kNumbers:
-      text = "a list of " + std::to_string(spec.min_size);
-      if (spec.max_size > spec.min_size) {
-        text += spec.max_size > 1000000 ? " or more" : " to " + std::to_string(spec.max_size);
-      }
+      text = "a list of " + DescribeCount(spec);
       text += spec.type == OptionType::kIntegers ? " integers" : " numbers";
+      break;
+    case OptionType::kRows:
+      text = "a list of " + DescribeCount(spec) + " lists of " + std::to_string(spec.row_size) + " numbers";
       break;
   }
   const bool below = std::isfinite(spec.minimum), above = std::isfinite(spec.maximum);
@@ -142,11 +170,12 @@ std::string FormatValue(const OptionValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   if (const auto* number = std::get_if<double>(&value)) return FormatNumber(*number);
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  std::string list = "[";
-  for (const double x : std::get<std::vector<double>>(value)) {
-    list += (list.size() > 1 ? ", " : "") + FormatNumber(x);
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) return FormatList(*list);
+  std::string rows = "[";
+  for (const std::vector<double>& row : std::get<OptionRows>(value)) {
+    rows += (rows.size() > 1 ? ", " : "") + FormatList(row);
   }
-  return list + "]";
+  return rows + "]";
 }
 
 std::string NearestWord(std::string_view word, std::span<const std::string> candidates) {
@@ -229,6 +258,10 @@ std::vector<int> Options::Integers(const std::string& name) const {
 
 const std::vector<double>& Options::Numbers(const std::string& name) const {
   return Typed<std::vector<double>>(Value(name), name);
+}
+
+const OptionRows& Options::Rows(const std::string& name) const {
+  return Typed<OptionRows>(Value(name), name);
 }
 
 }  // namespace frond

@@ -12,12 +12,15 @@
 
 namespace frond {
 
-// A value as it stands in a config: `true`, `3`, `0.5`, `centripetal`, `[3, 3]`.
-using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
+using OptionRows = std::vector<std::vector<double>>;
 
-// What an option accepts. kChoice is one of `words`; kInteger … kNumbers also accept one of `words` (for
-// example `auto` beside a pair of integers). Lists hold `min_size` to `max_size` values.
-enum class OptionType { kFlag, kInteger, kNumber, kText, kChoice, kIntegers, kNumbers };
+// A value as it stands in a config: `true`, `3`, `0.5`, `centripetal`, `[3, 3]`, `[[0, 0, 1], [0, 1, 0]]`.
+using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, OptionRows>;
+
+// What an option accepts. kChoice is one of `words`; kInteger … kRows also accept one of `words` (for
+// example `auto` beside a pair of integers). Lists hold `min_size` to `max_size` values; kRows are as many
+// lists of `row_size` numbers each.
+enum class OptionType { kFlag, kInteger, kNumber, kText, kChoice, kIntegers, kNumbers, kRows };
 
 // One option of a fit or solver, declared once: configs are validated, `frond list` is printed and the docs
 // are written from it. `name` is dotted where the config has sections: "surface.control_points".
@@ -31,6 +34,7 @@ struct OptionSpec {
   std::vector<std::string> words = {};
   std::size_t min_size = 1;  // lists only
   std::size_t max_size = 1;
+  std::size_t row_size = 0;  // kRows only
 };
 
 // "integer in [1, 20]", "one of uniform, chord", …: what `spec` accepts, in words.
@@ -48,7 +52,8 @@ class Options {
   explicit Options(std::vector<OptionSpec> specs);
 
   // Throws ConfigError that names the option (with the nearest known one) or the value and what is accepted.
-  // An integer is accepted where a number is asked for, and a single value where a list of any length is.
+  // An integer is accepted where a number is asked for, a single value where a list of any length is, and a
+  // single row where rows are.
   void Set(const std::string& name, OptionValue value);
 
   bool IsSet(const std::string& name) const;  // set by Set, not a default
@@ -63,6 +68,7 @@ class Options {
   bool HoldsWord(const std::string& name) const;           // a word where numbers could stand
   std::vector<int> Integers(const std::string& name) const;
   const std::vector<double>& Numbers(const std::string& name) const;
+  const OptionRows& Rows(const std::string& name) const;
 
  private:
   const OptionSpec& Spec(const std::string& name) const;

@@ -51,7 +51,7 @@ class ConfigFile {
   std::string Text(const std::string& key, std::optional<std::string> fallback = {}) const;
   std::vector<double> Numbers(const std::string& key) const;     // a single one is a list of one
   std::vector<std::string> Texts(const std::string& key) const;  // likewise
-  OptionValue Value(const std::string& key) const;               // scalar or list of numbers
+  OptionValue Value(const std::string& key) const;               // scalar, list of numbers or of such lists
   // A list of values of any kind, or a list of such lists: [lm, pso], [[10, 10], [20, 20]].
   std::vector<OptionValue> Values(const std::string& key) const;
 

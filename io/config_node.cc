@@ -185,6 +185,15 @@ const ConfigNode* ConfigNode::Child(std::string_view key) const {
 std::optional<OptionValue> ConfigNode::Value() const {
   if (null || kind == Kind::kMap) return std::nullopt;
   if (kind == Kind::kScalar) return ScalarValue(text, quoted);
+  if (!items.empty() && items[0].kind == Kind::kList) {
+    OptionRows rows;
+    for (const ConfigNode& item : items) {
+      const std::optional<OptionValue> row = item.Value();
+      if (!row || !std::holds_alternative<std::vector<double>>(*row)) return std::nullopt;
+      rows.push_back(std::get<std::vector<double>>(*row));
+    }
+    return rows;
+  }
   std::vector<double> numbers;
   for (const ConfigNode& item : items) {
     if (item.kind != Kind::kScalar || item.null) return std::nullopt;
@@ -232,6 +241,11 @@ ConfigNode MakeNode(const OptionValue& value, const std::string& place) {
   if (const auto* list = std::get_if<std::vector<double>>(&value)) {
     node.kind = ConfigNode::Kind::kList;
     for (const double number : *list) node.items.push_back(MakeNode(number, place));
+    return node;
+  }
+  if (const auto* rows = std::get_if<OptionRows>(&value)) {
+    node.kind = ConfigNode::Kind::kList;
+    for (const std::vector<double>& row : *rows) node.items.push_back(MakeNode(row, place));
     return node;
   }
   const auto* number = std::get_if<double>(&value);

@@ -24,7 +24,8 @@ struct ConfigNode {
 
   const ConfigNode* Child(std::string_view key) const;  // null if there is none
 
-  // `true`, `12`, `1e-3`, `.inf`, text; a list of numbers; nothing where it is a map, a null or another list.
+  // `true`, `12`, `1e-3`, `.inf`, text; a list of numbers or of lists of numbers; nothing where it is a map,
+  // a null or another list.
   std::optional<OptionValue> Value() const;
   std::string Describe() const;  // as a config would write it, for messages: "20", "[2, x]", "a section"
 };

@@ -149,7 +149,7 @@ std::string YamlText(const std::string& text) {
 
 std::string YamlValue(const OptionValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return YamlText(*text);
-  return MakeNode(value, "").Describe();  // numbers, flags and lists of numbers
+  return MakeNode(value, "").Describe();  // numbers, flags and lists of them
 }
 
 }  // namespace

@@ -47,6 +47,14 @@ std::vector<OptionSpec> LeafSpecs() {
        .help = "",
        .minimum = 0,
        .max_size = 9},
+      {.name = "planes",
+       .type = OptionType::kRows,
+       .default_value = OptionRows{},
+       .help = "",
+       .maximum = 1e6,
+       .min_size = 0,
+       .max_size = 3,
+       .row_size = 2},
   };
 }
 
@@ -100,6 +108,28 @@ TEST(Options, NumericTypes_ConvertWhereNothingIsLost) {
   EXPECT_EQ(options.Numbers("weights"), Values{3});
   options.Set("weights", 0.5);
   EXPECT_EQ(options.Numbers("weights"), Values{0.5});
+}
+
+TEST(Options, Rows_AreReturned) {
+  Options options(LeafSpecs());
+  EXPECT_EQ(options.Rows("planes"), OptionRows{});
+  options.Set("planes", OptionRows{{1, 2}, {3, 4}});
+  EXPECT_EQ(options.Rows("planes"), (OptionRows{{1, 2}, {3, 4}}));
+  options.Set("planes", Values{5, 6});  // one row where rows are asked for
+  EXPECT_EQ(options.Rows("planes"), (OptionRows{{5, 6}}));
+  options.Set("planes", Values{});
+  EXPECT_EQ(options.Rows("planes"), OptionRows{});
+}
+
+TEST(Options, RowsOfWrongCountWidthOrValue_Throw) {
+  const std::string expected = ", expected a list of 0 to 3 lists of 2 numbers <= 1e+06";
+  EXPECT_EQ(MessageOfSet("planes", OptionRows{{1, 2}, {3}}), "option 'planes' is [[1, 2], [3]]" + expected);
+  EXPECT_EQ(MessageOfSet("planes", OptionRows{{1, 2}, {3, 4}, {5, 6}, {7, 8}}),
+            "option 'planes' is [[1, 2], [3, 4], [5, 6], [7, 8]]" + expected);
+  EXPECT_EQ(MessageOfSet("planes", OptionRows{{1, 2e6}}), "option 'planes' is [[1, 2e+06]]" + expected);
+  EXPECT_EQ(MessageOfSet("planes", 3.0), "option 'planes' is 3" + expected);
+  EXPECT_EQ(MessageOfSet("weights", OptionRows{{1}}),
+            "option 'weights' is [[1]], expected a list of 1 to 9 numbers >= 0");
 }
 
 TEST(Options, UnknownName_ThrowsWithNearestName) {
@@ -202,6 +232,7 @@ TEST(FormatValue, EachKind_ReadsAsAConfigWouldWriteIt) {
   EXPECT_EQ(FormatValue(std::string("chord")), "chord");
   EXPECT_EQ(FormatValue(Values{3, 0.5}), "[3, 0.5]");
   EXPECT_EQ(FormatValue(Values{}), "[]");
+  EXPECT_EQ(FormatValue(OptionRows{{1, 2}, {0.5, 4}}), "[[1, 2], [0.5, 4]]");
 }
 
 TEST(NearestWord, Typos_FindTheirWord) {

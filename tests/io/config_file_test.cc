@@ -34,7 +34,8 @@ Options LeafOptions() {
        {"point_set.ordered", OptionType::kFlag, true, ""},
        {"robust.scale", OptionType::kNumber, 2.5, "", 0},
        {"label", OptionType::kText, std::string(""), ""},
-       {"start", OptionType::kChoice, std::string("paper"), "", 0, 0, {"paper", "rectangle"}}});
+       {"start", OptionType::kChoice, std::string("paper"), "", 0, 0, {"paper", "rectangle"}},
+       {"planes", OptionType::kRows, OptionRows{}, "", -1e9, 1e9, {}, 0, 9, 3}});
 }
 
 ConfigFile Leaf(const std::string& yaml = kLeaf) {
@@ -69,6 +70,25 @@ TEST(ConfigFile, Values_HaveTheirTypes) {
   EXPECT_TRUE(config.IsSection("problem"));
   EXPECT_FALSE(config.Has("problem.surface.knots"));
   EXPECT_EQ(std::get<std::string>(ConfigFile::Parse("a: '12'", "a.yaml").Value("a")), "12");
+}
+
+TEST(ConfigFile, ReadSection_SetsRowsFromListsOfLists) {
+  Options options = LeafOptions();
+  ConfigFile config =
+      Leaf(Replaced(kLeaf, "  type: leaf", "  type: leaf\n  planes: [[0, 0, 1], [0, 1.5, 0]]"));
+  config.ReadSection("problem", &options, {"type"});
+  EXPECT_EQ(options.Rows("planes"), (OptionRows{{0, 0, 1}, {0, 1.5, 0}}));
+  config.Override("problem.planes=[[1, 2, 3]]");
+  config.ReadSection("problem", &options, {"type"});
+  EXPECT_EQ(options.Rows("planes"), (OptionRows{{1, 2, 3}}));
+}
+
+TEST(ConfigFile, RowsThatAreNone_AreRefusedWithWhatIsExpected) {
+  for (const char* wrong : {"[[1, 2]]", "[[1, 2, x]]", "[1, [1, 2, 3]]", "[[1, 2, 3], 4]", "[[[1, 2, 3]]]"}) {
+    EXPECT_EQ(SectionError(Replaced(kLeaf, "  type: leaf", std::string("  type: leaf\n  planes: ") + wrong)),
+              std::string("leaf.yaml:6:11: 'planes' in 'problem' is ") + wrong +
+                  ", expected a list of 0 to 9 lists of 3 numbers in [-1e+09, 1e+09]");
+  }
 }
 
 TEST(ConfigFile, ReadSection_SetsNestedOptionsByDottedNames) {
@@ -209,6 +229,7 @@ TEST(ResolvedConfig, ReadBack_GivesTheSameOptions) {
   options.Set("label", std::string("yes: \"it\" is #1\n\\ 3"));
   options.Set("robust.scale", INFINITY);
   options.Set("surface.control_points", std::vector<double>{20, 21});
+  options.Set("planes", OptionRows{{0, 0.1, 1}, {-1, 2, 3e-9}});
   ResolvedConfig resolved;
   resolved.Add("name", std::string("true"));
   resolved.Add("seed", std::int64_t{42});
