@@ -5,14 +5,37 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace frond {
 namespace {
 
-// One coordinate's box: at which bound it stands, if at any, when the objective falls outwards.
-bool HeldAtBound(const BSplineBasis& basis, double t, double gradient) {
+// At which bound one coordinate stands, if at any, when the objective falls outwards. A pole is no bound.
+bool HeldAtBound(const BSplineBasis& basis, double t, double gradient, PoleEnds poles = {}) {
   if (basis.periodic()) return false;
-  return (t <= basis.begin() && gradient > 0) || (t >= basis.end() && gradient < 0);
+  return (t <= basis.begin() && gradient > 0 && !poles.begin) ||
+         (t >= basis.end() && gradient < 0 && !poles.end);
+}
+
+// (u, v) after a step. In the span of v next to a pole (u, v) are polar coordinates of the tangent plane
+// there: the step is taken in that plane, so that it may lead past the pole, to u half a turn on. Feet keep
+// kFromPole of the span away from the pole itself, where u has no meaning.
+Eigen::Vector2d Moved(const SurfaceCells& cells, double u, double v, const Eigen::Vector2d& step) {
+  constexpr double kFromPole = 1e-5;
+  const BSplineBasis &bu = cells.basis_u(), &bv = cells.basis_v();
+  const SpanPolynomials& spans = cells.v();
+  const int last = spans.count() - 1;
+  const double first_length = spans.length(0), last_length = spans.length(last);
+  const bool at_begin = cells.poles().begin && std::min(v, v + step[1]) < bv.begin() + first_length;
+  const bool at_end = !at_begin && cells.poles().end && std::max(v, v + step[1]) > bv.end() - last_length;
+  if (!at_begin && !at_end) return {bu.IntoDomain(u + step[0]), bv.IntoDomain(v + step[1])};
+  const double turn = 2 * std::numbers::pi / (bu.end() - bu.begin());
+  const double radius = at_begin ? v - bv.begin() : bv.end() - v;
+  const double along = radius + (at_begin ? step[1] : -step[1]), across = radius * turn * step[0];
+  const double moved =
+      std::max(std::hypot(along, across), kFromPole * (at_begin ? first_length : last_length));
+  return {bu.IntoDomain(u + std::atan2(across, along) / turn),
+          bv.IntoDomain(at_begin ? bv.begin() + moved : bv.end() - moved)};
 }
 
 struct Quadratic {
@@ -55,8 +78,10 @@ FootPoint RefineFootPoint(const SurfaceCells& cells, const Eigen::Vector3d& poin
                           const FootPointOptions& options) {
   const BSplineBasis &bu = cells.basis_u(), &bv = cells.basis_v();
   FootPoint foot;
-  foot.u = bu.IntoDomain(u);
-  foot.v = bv.IntoDomain(v);
+  const PoleEnds poles = cells.poles();
+  const Eigen::Vector2d start = Moved(cells, bu.IntoDomain(u), bv.IntoDomain(v), Eigen::Vector2d::Zero());
+  foot.u = start[0];
+  foot.v = start[1];
   SurfaceCells::Jet2 s = cells.Evaluate2(foot.u, foot.v);
   Eigen::Vector3d r = s.position - point;
   foot.squared_distance = r.squaredNorm();
@@ -64,7 +89,7 @@ FootPoint RefineFootPoint(const SurfaceCells& cells, const Eigen::Vector3d& poin
   for (int iteration = 0; iteration <= options.max_iterations; ++iteration) {
     const Quadratic model = Model(s, r);
     const bool new_u = HeldAtBound(bu, foot.u, model.gradient[0]) != foot.at_edge_u;
-    const bool new_v = HeldAtBound(bv, foot.v, model.gradient[1]) != foot.at_edge_v;
+    const bool new_v = HeldAtBound(bv, foot.v, model.gradient[1], poles) != foot.at_edge_v;
     foot.at_edge_u ^= new_u;
     foot.at_edge_v ^= new_v;
     if (last_step && !new_u && !new_v) {
@@ -80,8 +105,10 @@ FootPoint RefineFootPoint(const SurfaceCells& cells, const Eigen::Vector3d& poin
     bool improved = false;
     double moved = 0;
     for (int halving = 0; halving < 8 && !improved; ++halving, step *= 0.5) {
-      const double nu = bu.IntoDomain(foot.u + step[0]), nv = bv.IntoDomain(foot.v + step[1]);
-      const double su = bu.periodic() ? step[0] : nu - foot.u, sv = bv.periodic() ? step[1] : nv - foot.v;
+      const Eigen::Vector2d next = Moved(cells, foot.u, foot.v, step);
+      const double nu = next[0], nv = next[1];
+      const double su = bu.periodic() ? step[0] : nu - foot.u;
+      const double sv = bv.periodic() || poles.any() ? step[1] : nv - foot.v;
       moved = (su * s.du + sv * s.dv).norm();
       const SurfaceCells::Jet2 trial = cells.Evaluate2(nu, nv);
       const Eigen::Vector3d trial_r = trial.position - point;

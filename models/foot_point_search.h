@@ -29,7 +29,8 @@ struct FootPointOptions {
 
 // Safeguarded Newton in the box of the domain from (u, v): Newton's matrix where it is positive definite,
 // Gauss–Newton's otherwise; a coordinate at a bound that pulls outwards is held; steps that do not lower the
-// distance are halved. Periodic directions wrap. About three evaluations from a near start.
+// distance are halved. Periodic directions wrap; steps lead over poles (PoleEnds), which are no edges. About
+// three evaluations from a near start.
 FootPoint RefineFootPoint(const SurfaceCells& cells, const Eigen::Vector3d& point, double u, double v,
                           const FootPointOptions& options);
 

@@ -56,6 +56,17 @@ BSplineBasis PeriodicUniformBasis(int degree, int distinct, double begin, double
   return BSplineBasis(degree, std::move(knots), true);
 }
 
+BSplineBasis PeriodicBasis(int degree, std::span<const double> knots, double period) {
+  const auto distinct = static_cast<int>(knots.size());
+  CheckCounts(degree, distinct, "distinct control points in a periodic direction");
+  std::vector<double> all;
+  for (int i = -degree; i <= distinct + degree; ++i) {
+    const int turns = i < 0 ? -((-i + distinct - 1) / distinct) : i / distinct;
+    all.push_back(knots[static_cast<std::size_t>(i - turns * distinct)] + turns * period);
+  }
+  return BSplineBasis(degree, std::move(all), true);
+}
+
 std::vector<double> Parametrise(std::span<const Eigen::Vector3d> points, Parametrisation method) {
   const std::size_t count = points.size();
   if (count < 2)
@@ -73,6 +84,14 @@ std::vector<double> Parametrise(std::span<const Eigen::Vector3d> points, Paramet
     throw InputError("a row of points without length has no chord or centripetal parameters");
   }
   for (double& parameter : parameters) parameter /= total;
+  return parameters;
+}
+
+std::vector<double> ParametriseClosed(std::span<const Eigen::Vector3d> points, Parametrisation method) {
+  std::vector<Eigen::Vector3d> around(points.begin(), points.end());
+  if (!around.empty()) around.push_back(around.front());
+  std::vector<double> parameters = Parametrise(around, method);
+  parameters.pop_back();
   return parameters;
 }
 

@@ -53,6 +53,12 @@ class NurbsSurface {
   std::vector<double> weights_;
 };
 
+// Which ends of v are poles: u is periodic and the end's row of control points is one point.
+struct PoleEnds {
+  bool begin = false, end = false;
+  bool any() const { return begin || end; }
+};
+
 // A closed polygon in (u, v); the last point is joined to the first, which is not repeated.
 using TrimLoop = std::vector<Eigen::Vector2d>;
 

@@ -73,6 +73,14 @@ void SurfaceCells::Update(std::span<const Eigen::Vector3d> control_points, std::
   rational_ = std::any_of(weights.begin(), weights.end(), [&](double w) { return w != weights[0]; });
   const int p = u_.degree(), q = v_.degree();
   const auto nv = static_cast<std::size_t>(basis_v_.num_control_points());
+  const auto is_pole = [&](std::size_t j) {
+    if (!basis_u_.periodic() || basis_v_.periodic()) return false;
+    for (std::size_t k = j; k < control_points.size(); k += nv) {
+      if (control_points[k] != control_points[j]) return false;
+    }
+    return true;
+  };
+  poles_ = {is_pole(0), is_pole(nv - 1)};
   Eigen::Array4d* out = coefficients_.data();
   std::array<Eigen::Array4d, (kMaxDegree + 1) * (kMaxDegree + 1)> half;  // power of s × control column
   for (int ku = 0; ku < u_.count(); ++ku) {

@@ -58,6 +58,7 @@ class SurfaceCells {
   const SpanPolynomials& v() const { return v_; }
   int count() const { return u_.count() * v_.count(); }
   bool rational() const { return rational_; }
+  const PoleEnds& poles() const { return poles_; }  // of the present control points
   int CellOf(double u, double v) const { return u_.SpanOf(u) * v_.count() + v_.SpanOf(v); }
 
   // (u, v) in the domain. Without allocation; re-entrant.
@@ -75,6 +76,7 @@ class SurfaceCells {
   BSplineBasis basis_u_, basis_v_;
   SpanPolynomials u_, v_;
   bool rational_ = false;
+  PoleEnds poles_;
   std::vector<Eigen::Array4d> coefficients_;  // cell-major, then power of s (u), then power of t (v)
 };
 

@@ -5,54 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "models/gauss_rule.h"
 #include "models/surface_cells.h"
 
 namespace frond {
 namespace {
 
-struct GaussRule {
-  std::vector<double> nodes, weights;  // on [0, 1]
-};
-
-// Gauss–Legendre of `count` points: Newton on the Legendre polynomial from the Chebyshev-like guess.
-GaussRule MakeGaussRule(int count) {
-  GaussRule rule;
-  for (int k = 0; k < count; ++k) {
-    double x = -std::cos(std::numbers::pi * (k + 0.75) / (count + 0.5)), derivative = 1;
-    for (int iteration = 0; iteration < 20; ++iteration) {
-      double previous = 1, value = x;
-      for (int j = 2; j <= count; ++j) {
-        const double next = ((2 * j - 1) * x * value - (j - 1) * previous) / j;
-        previous = value;
-        value = next;
-      }
-      derivative = count * (x * value - previous) / (x * x - 1);
-      const double step = value / derivative;
-      x -= step;
-      if (std::abs(step) < 1e-16) break;
-    }
-    rule.nodes.push_back((x + 1) / 2);
-    rule.weights.push_back(1 / ((1 - x * x) * derivative * derivative));
-  }
-  return rule;
-}
-
-constexpr int kMaxGauss = 16;
-
-const GaussRule& Gauss(int count) {
-  static const std::vector<GaussRule> rules = [] {
-    std::vector<GaussRule> all(1);
-    for (int n = 1; n <= kMaxGauss; ++n) all.push_back(n == 1 ? GaussRule{{0.5}, {1.0}} : MakeGaussRule(n));
-    return all;
-  }();
-  return rules[static_cast<std::size_t>(count)];
-}
-
 // Points for a whole span: few spans must each carry more of the shape.
-int FullCount(int spans) { return spans <= 4 ? kMaxGauss : spans <= 12 ? 8 : 6; }
+int FullCount(int spans) { return spans <= 4 ? kMaxGaussPoints : spans <= 12 ? 8 : 6; }
 
 // Points for a part of a span.
 int PartCount(double fraction, int full) {
@@ -75,7 +37,7 @@ double AlongV(const SurfaceCells& cells, double u, double a, double b) {
     const double low = std::max(a, spans.begin(k));
     const double length = std::min(b, spans.begin(k) + spans.length(k)) - low;
     if (!(length > 0)) continue;
-    const GaussRule& rule = Gauss(PartCount(length / spans.length(k), full));
+    const GaussRule& rule = GaussRuleOf(PartCount(length / spans.length(k), full));
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
       sum += rule.weights[i] * length * AreaElement(cells, u, low + rule.nodes[i] * length);
     }
@@ -150,7 +112,7 @@ double TrimmedArea(const SurfaceCells& cells, const std::vector<TrimLoop>& trim)
     }
     if (active.empty()) continue;
     const double span = spans.length(spans.SpanOf(begin + length / 2));
-    const GaussRule& rule = Gauss(PartCount(length / span, full));
+    const GaussRule& rule = GaussRuleOf(PartCount(length / span, full));
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
       area +=
           rule.weights[i] * length * InsideAlongV(cells, begin + rule.nodes[i] * length, active, crossings);
@@ -161,7 +123,7 @@ double TrimmedArea(const SurfaceCells& cells, const std::vector<TrimLoop>& trim)
 
 double WholeArea(const SurfaceCells& cells) {
   const SpanPolynomials& spans = cells.u();
-  const GaussRule& rule = Gauss(FullCount(spans.count()));
+  const GaussRule& rule = GaussRuleOf(FullCount(spans.count()));
   double area = 0;
   for (int k = 0; k < spans.count(); ++k) {
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
@@ -174,7 +136,7 @@ double WholeArea(const SurfaceCells& cells) {
 }
 
 double GaussLength(const NurbsCurve& curve, double begin, double end) {
-  const GaussRule& rule = Gauss(10);
+  const GaussRule& rule = GaussRuleOf(10);
   double sum = 0;
   for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
     const double t = begin + rule.nodes[i] * (end - begin);
