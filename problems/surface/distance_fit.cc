@@ -50,6 +50,8 @@ std::map<std::string, double> SurfaceDistanceFit::Metrics(std::span<const double
           {"max", std::sqrt(state.squared_max())}};
 }
 
+const ControlNet& SurfaceDistanceFit::net() const { return shared_->net; }
+
 NurbsSurface SurfaceDistanceFit::SurfaceAt(std::span<const double> x) const {
   std::vector<double> values(x.begin(), x.end());
   std::vector<double*> blocks;

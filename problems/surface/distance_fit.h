@@ -23,6 +23,7 @@ struct DistanceFitOptions {
   SurfaceUnknowns unknowns = SurfaceUnknowns::kControlPoints;
   DistanceDerivatives derivatives = DistanceDerivatives::kStructured;
   double fairness = 1e-10;       // λ of λ N · (thin-plate energy), (u, v) scaled to [0, 1]²
+  double membrane = 0;           // of the first derivatives' energy, beside 1 of the second ones'
   double length_scale = 1;       // that terms in mm² below are measured in, so that the unit does not matter
   double hinge = 1;              // μ in length_scale²; 0: no hinge
   double hinge_limit = 0.3;      // δ, share of the reference's area density
@@ -34,6 +35,7 @@ struct DistanceFitOptions {
   double peak_scale = 1;
   std::optional<MarginOptions> margin;  // rows that conform the edges to the boundary ring
   std::vector<std::vector<int>> tied;   // groups of control points that stay one point
+  PoleEnds poles = {};                  // kept C¹ (ControlNet); only with control points as unknowns
 };
 
 // The orthogonal distance fit of a surface (MATH.md §1), written for any solver:
@@ -63,6 +65,7 @@ class SurfaceDistanceFit : public FitProblem {
   std::map<std::string, double> Metrics(std::span<const double> x) const override;
 
   NurbsSurface SurfaceAt(std::span<const double> x) const;
+  const ControlNet& net() const;
 
   // What a state needs of its fit; the fit outlives it.
   struct Shared;

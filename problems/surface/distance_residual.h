@@ -31,17 +31,17 @@ struct DistanceResidual {
     T denominator(0.0);
     for (std::size_t k = 0; k < basis.size(); ++k) {
       using std::exp;
-      const T* block = blocks[layout->place[k]];
+      const std::vector<BlockTerm>& terms = layout->terms[k];
       const std::size_t control_point = layout->control_points[k];
       T weight(net->start_weights()[control_point]);
-      if (net->unknowns() != SurfaceUnknowns::kControlPoints) weight = exp(block[size - 1]);
+      if (net->unknowns() != SurfaceUnknowns::kControlPoints) weight = exp(blocks[terms[0].block][size - 1]);
       const T factor = weight * basis[k];
       denominator += factor;
       for (int x = 0; x < 3; ++x) {
         if (net->unknowns() == SurfaceUnknowns::kWeights) {
           sum[x] += factor * net->start_points()[control_point][x];
         } else {
-          sum[x] += factor * block[x];
+          for (const BlockTerm& term : terms) sum[x] += factor * term.factor * blocks[term.block][x];
         }
       }
     }

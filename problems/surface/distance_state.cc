@@ -25,6 +25,16 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> DirectionsOf(const Eigen::Matrix3d& pro
   return eigen.eigenvectors().rightCols(rank).transpose();
 }
 
+// The blocks of H, on and above its diagonal, that the entry of control points a and b of a cell goes to.
+template <typename Add>
+void ForUpperBlocks(const CellBlocks& layout, Eigen::Index a, Eigen::Index b, const Add& add) {
+  for (const BlockTerm& row : layout.terms[static_cast<std::size_t>(a)]) {
+    for (const BlockTerm& column : layout.terms[static_cast<std::size_t>(b)]) {
+      if (column.block >= row.block) add(row.block, column.block, row.factor * column.factor);
+    }
+  }
+}
+
 }  // namespace
 
 SurfaceDistanceFit::Shared::Shared(std::span<const Eigen::Vector3d> points_in, const NurbsSurface& start_in,
@@ -33,10 +43,10 @@ SurfaceDistanceFit::Shared::Shared(std::span<const Eigen::Vector3d> points_in, c
     : points(points_in),
       start(start_in),
       options(std::move(options_in)),
-      net(start, options.unknowns, options.tied),
+      net(start, options.unknowns, options.tied, options.poles),
       cells(start),
       layout(BlocksOfCells(cells, net)),
-      gram(ThinPlateGram(cells)),
+      gram(ThinPlateGram(cells, options.poles, options.membrane)),
       hinge(SurfaceCells(reference), options.hinge_limit),
       start_feet(std::move(feet)) {
   cells.Update(net.start_points(), net.start_weights());
@@ -264,15 +274,16 @@ void DistanceState::AddMomentsToBlocks(std::size_t cell, const CellMoments& mome
   const SpanPolynomials &su = cells_.u(), &sv = cells_.v();
   const CellBlocks& layout = shared_.layout[cell];
   const Eigen::Index c = shared_.net.row_components(), d = shared_.net.block_size();
-  const auto local = static_cast<Eigen::Index>(layout.place.size());
+  const auto local = static_cast<Eigen::Index>(layout.terms.size());
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(c * local, c * local);
   Eigen::VectorXd g = Eigen::VectorXd::Zero(c * local);
   moments.AddTo(su.coefficients(static_cast<int>(cell) / sv.count()),
                 sv.coefficients(static_cast<int>(cell) % sv.count()), &h, &g);
   const Eigen::Vector3d origin = LocalOrigin(cell);
   AddRoundingFloor(cell, origin, c, &h);
-  const bool plain = d == 3 && !cells_.rational() && static_cast<Eigen::Index>(layout.blocks.size()) == local;
-  if (plain) {  // every tangent is the identity and the blocks stand in the control points' order
+  if (layout.plain && d == 3 &&
+      !cells_
+           .rational()) {  // every tangent is the identity and the blocks stand in the control points' order
     rows->AddMatrix(h, g, 0);
     return;
   }
@@ -283,13 +294,16 @@ void DistanceState::AddMomentsToBlocks(std::size_t cell, const CellMoments& mome
   }
   for (Eigen::Index a = 0; a < local; ++a) {
     const Eigen::MatrixXd& ta = tangents[static_cast<std::size_t>(a)];
-    const Eigen::Index row = layout.place[static_cast<std::size_t>(a)] * d;
-    rows->g().segment(row, d) += ta.transpose() * g.segment(a * c, c);
+    const Eigen::VectorXd ga = ta.transpose() * g.segment(a * c, c);
+    for (const BlockTerm& row : layout.terms[static_cast<std::size_t>(a)]) {
+      rows->g().segment(row.block * d, d) += row.factor * ga;
+    }
     for (Eigen::Index b = 0; b < local; ++b) {
-      const Eigen::Index column = layout.place[static_cast<std::size_t>(b)] * d;
-      if (column < row) continue;
-      rows->H().block(row, column, d, d) +=
+      const Eigen::MatrixXd hab =
           ta.transpose() * h.block(a * c, b * c, c, c) * tangents[static_cast<std::size_t>(b)];
+      ForUpperBlocks(layout, a, b, [&](int row, int column, double factor) {
+        rows->H().block(row * d, column * d, d, d) += factor * hab;
+      });
     }
   }
 }
@@ -354,13 +368,14 @@ void DistanceState::AddRegularisation(std::size_t cell, CompressedRows* rows) co
     const double scale = shared_.options.fairness * static_cast<double>(shared_.points.size());
     const Eigen::MatrixXd points = LocalControlPoints(cell), gradient = scale * shared_.gram[cell] * points;
     for (Eigen::Index a = 0; a < points.rows(); ++a) {
-      const Eigen::Index row = layout.place[static_cast<std::size_t>(a)] * d;
-      rows->g().segment<3>(row) += gradient.row(a).transpose();
+      for (const BlockTerm& row : layout.terms[static_cast<std::size_t>(a)]) {
+        rows->g().segment<3>(row.block * d) += row.factor * gradient.row(a).transpose();
+      }
       for (Eigen::Index b = 0; b < points.rows(); ++b) {
-        const Eigen::Index column = layout.place[static_cast<std::size_t>(b)] * d;
-        if (column >= row) {
-          rows->H().block<3, 3>(row, column).diagonal().array() += scale * shared_.gram[cell](a, b);
-        }
+        const double entry = scale * shared_.gram[cell](a, b);
+        ForUpperBlocks(layout, a, b, [&](int row, int column, double factor) {
+          rows->H().block<3, 3>(row * d, column * d).diagonal().array() += factor * entry;
+        });
       }
     }
     rows->squared_norm() += gradient.cwiseProduct(points).sum();

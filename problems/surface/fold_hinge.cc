@@ -83,10 +83,13 @@ double FoldHinge::AddRows(const SurfaceCells& cells, int cell, double scale, con
         const double ru = (nu[ia + static_cast<std::size_t>(p) + 1] * nv[ib] * weight - wu * r) / w;
         const double rv = (nu[ia] * nv[ib + static_cast<std::size_t>(q) + 1] * weight - wv * r) / w;
         const Eigen::Vector3d by_point = ru * by_du + rv * by_dv;
-        const int place = layout.place[im] * d;
-        if (net.unknowns() != SurfaceUnknowns::kWeights) row.segment<3>(place) -= scale * by_point;
+        if (net.unknowns() != SurfaceUnknowns::kWeights) {
+          for (const BlockTerm& term : layout.terms[im]) {
+            row.segment<3>(term.block * d) -= scale * term.factor * by_point;
+          }
+        }
         if (net.unknowns() != SurfaceUnknowns::kControlPoints) {  // ∂S_u/∂ω = R_u (P − S) − R S_u
-          row[place + d - 1] -=
+          row[layout.terms[im][0].block * d + d - 1] -=
               scale * (by_point.dot(control_points[layout.control_points[im]] - jet.position) - 2 * r * kept);
         }
       }

@@ -13,11 +13,11 @@
 namespace frond {
 NurbsSurface FitAtParameters(std::span<const Eigen::Vector3d> points,
                              std::span<const Eigen::Vector2d> parameters, const BSplineBasis& u,
-                             const BSplineBasis& v, double fairness) {
+                             const BSplineBasis& v, double fairness, PoleEnds poles) {
   const auto count = static_cast<std::size_t>(u.num_control_points() * v.num_control_points());
   const NurbsSurface blank(u, v, std::vector<Eigen::Vector3d>(count, Eigen::Vector3d::Zero()));
   const SurfaceCells cells(blank);
-  const ControlNet net(blank, SurfaceUnknowns::kControlPoints);
+  const ControlNet net(blank, SurfaceUnknowns::kControlPoints, {}, poles);
   const std::vector<CellBlocks> layout = BlocksOfCells(cells, net);
   std::vector<CellMoments> sums(layout.size(), CellMoments(u.degree(), v.degree(), 1, 3));
   const double one = 1;
@@ -27,7 +27,7 @@ NurbsSurface FitAtParameters(std::span<const Eigen::Vector3d> points,
     const double t = (parameters[i][1] - cells.v().begin(kv)) / cells.v().length(kv);
     sums[static_cast<std::size_t>(ku * cells.v().count() + kv)].Add(s, t, &one, points[i].data());
   }
-  const std::vector<Eigen::MatrixXd> gram = ThinPlateGram(cells);
+  const std::vector<Eigen::MatrixXd> gram = ThinPlateGram(cells, poles);
   const Eigen::Index size = static_cast<Eigen::Index>(net.num_blocks());
   const Eigen::Index local = (u.degree() + 1) * (v.degree() + 1);
   Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(size, 3);
@@ -39,13 +39,14 @@ NurbsSurface FitAtParameters(std::span<const Eigen::Vector3d> points,
     Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * local);
     sums[c].AddTo(cells.u().coefficients(ku), cells.v().coefficients(kv), &h, &g);
     for (Eigen::Index a = 0; a < local; ++a) {
-      const int row =
-          layout[c].blocks[static_cast<std::size_t>(layout[c].place[static_cast<std::size_t>(a)])];
-      rhs.row(row) += g.segment<3>(3 * a).transpose();
-      for (Eigen::Index b = 0; b < local; ++b) {
-        const int column =
-            layout[c].blocks[static_cast<std::size_t>(layout[c].place[static_cast<std::size_t>(b)])];
-        if (column <= row) entries.emplace_back(row, column, h(a, b));
+      for (const BlockTerm& row : net.terms(layout[c].control_points[static_cast<std::size_t>(a)])) {
+        rhs.row(row.block) += row.factor * g.segment<3>(3 * a).transpose();
+        for (Eigen::Index b = 0; b < local; ++b) {
+          for (const BlockTerm& column : net.terms(layout[c].control_points[static_cast<std::size_t>(b)])) {
+            if (column.block > row.block) continue;
+            entries.emplace_back(row.block, column.block, row.factor * column.factor * h(a, b));
+          }
+        }
       }
     }
   }
@@ -57,7 +58,12 @@ NurbsSurface FitAtParameters(std::span<const Eigen::Vector3d> points,
   const Eigen::MatrixXd solution = factor.solve(rhs);
   if (!solution.allFinite()) throw FitError("the linear start is singular: too few points for the net");
   std::vector<Eigen::Vector3d> control_points(count);
-  for (std::size_t k = 0; k < count; ++k) control_points[k] = solution.row(net.block_of(k)).transpose();
+  for (std::size_t k = 0; k < count; ++k) {
+    control_points[k].setZero();
+    for (const BlockTerm& term : net.terms(k)) {
+      control_points[k] += term.factor * solution.row(term.block).transpose();
+    }
+  }
   return NurbsSurface(u, v, std::move(control_points));
 }
 

@@ -18,7 +18,7 @@ struct EdgeSample {
   Eigen::Vector3d position;
 };
 
-// Edges 0, 1: u at its begin, end; 2, 3: v at its begin, end. Closed directions have no edges.
+// Edges 0, 1: u at its begin, end; 2, 3: v at its begin, end.
 Eigen::Vector2d OnEdge(const SurfaceCells& cells, int edge, double t) {
   const BSplineBasis &bu = cells.basis_u(), &bv = cells.basis_v();
   switch (edge) {
@@ -41,6 +41,7 @@ std::vector<EdgeSample> SampleEdges(const SurfaceCells& cells, int per_edge) {
   std::vector<EdgeSample> samples;
   for (int edge = 0; edge < 4; ++edge) {
     if ((edge < 2 ? cells.basis_u() : cells.basis_v()).periodic()) continue;
+    if ((edge == 2 && cells.poles().begin) || (edge == 3 && cells.poles().end)) continue;
     const BSplineBasis& along = AlongEdge(cells, edge);
     const double step = (along.end() - along.begin()) / per_edge;
     for (int i = 0; i < per_edge; ++i) {
@@ -82,28 +83,58 @@ MarginRow FootOnEdge(const SurfaceCells& cells, const EdgeSample& start, const E
   return {uv[0], uv[1], weight, point, at_end ? Eigen::Matrix3d::Identity() : SquareTo(tangent)};
 }
 
-// The nearest point of the ring's segments to `point`, among the segments at the nearest vertices.
-void NearestOnRing(const std::vector<Eigen::Vector3d>& ring, const KdTree& tree, const Eigen::Vector3d& point,
-                   Eigen::Vector3d* nearest, Eigen::Vector3d* direction) {
-  std::array<KdTree::Neighbour, 4> vertices;
-  const std::size_t found = tree.Nearest(point, vertices);
-  double best = std::numeric_limits<double>::infinity();
-  const std::size_t n = ring.size();
-  for (std::size_t k = 0; k < found; ++k) {
-    for (const std::size_t first : {vertices[k].index, (vertices[k].index + n - 1) % n}) {
-      const Eigen::Vector3d &a = ring[first], d = ring[(first + 1) % n] - a;
-      const double length = d.squaredNorm();
-      const double along = length > 0 ? std::clamp((point - a).dot(d) / length, 0.0, 1.0) : 0.0;
-      const Eigen::Vector3d candidate = a + along * d;
-      const double squared = (candidate - point).squaredNorm();
-      if (squared < best) {
-        best = squared;
-        *nearest = candidate;
-        *direction = d;
+// The segments of all rings, by their first vertex.
+class RingSegments {
+ public:
+  explicit RingSegments(const std::vector<std::vector<Eigen::Vector3d>>& rings)
+      : vertices_(Joined(rings)), tree_(vertices_) {
+    for (const auto& ring : rings) {
+      const std::size_t first = next_.size(), n = ring.size();
+      for (std::size_t i = 0; i < n; ++i) {
+        next_.push_back(first + (i + 1) % n);
+        previous_.push_back(first + (i + n - 1) % n);
+        length_ += (ring[(i + 1) % n] - ring[i]).norm();
       }
     }
   }
-}
+
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
+  double length() const { return length_; }
+
+  // The nearest point to `point`, among the segments at the nearest vertices, and its segment's direction.
+  void Nearest(const Eigen::Vector3d& point, Eigen::Vector3d* nearest, Eigen::Vector3d* direction) const {
+    std::array<KdTree::Neighbour, 4> neighbours;
+    const std::size_t found = tree_.Nearest(point, neighbours);
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < found; ++k) {
+      for (const std::size_t first : {neighbours[k].index, previous_[neighbours[k].index]}) {
+        const Eigen::Vector3d &a = vertices_[first], d = vertices_[next_[first]] - a;
+        const double squared_length = d.squaredNorm();
+        const double along =
+            squared_length > 0 ? std::clamp((point - a).dot(d) / squared_length, 0.0, 1.0) : 0.0;
+        const Eigen::Vector3d candidate = a + along * d;
+        const double squared = (candidate - point).squaredNorm();
+        if (squared < best) {
+          best = squared;
+          *nearest = candidate;
+          *direction = d;
+        }
+      }
+    }
+  }
+
+ private:
+  static std::vector<Eigen::Vector3d> Joined(const std::vector<std::vector<Eigen::Vector3d>>& rings) {
+    std::vector<Eigen::Vector3d> all;
+    for (const auto& ring : rings) all.insert(all.end(), ring.begin(), ring.end());
+    return all;
+  }
+
+  std::vector<Eigen::Vector3d> vertices_;
+  KdTree tree_;
+  std::vector<std::size_t> next_, previous_;
+  double length_ = 0;
+};
 
 }  // namespace
 
@@ -111,30 +142,27 @@ std::vector<MarginRow> MakeMarginRows(const SurfaceCells& cells, const MarginOpt
                                       std::size_t num_points) {
   const std::vector<EdgeSample> samples = SampleEdges(cells, options.samples_per_edge);
   std::vector<MarginRow> rows;
-  if (samples.empty() || options.ring.size() < 3) return rows;
+  if (samples.empty() || options.rings.empty()) return rows;
   std::vector<Eigen::Vector3d> positions;
   for (const EdgeSample& sample : samples) positions.push_back(sample.position);
-  const KdTree edge_tree(positions), ring_tree(options.ring);
+  const KdTree edge_tree(positions);
+  const RingSegments rings(options.rings);
   const double total = options.weight * static_cast<double>(num_points);
-  for (const Eigen::Vector3d& point : options.ring) {
+  for (const Eigen::Vector3d& point : rings.vertices()) {
     const EdgeSample& start = samples[edge_tree.Nearest(point).index];
-    rows.push_back(FootOnEdge(cells, start, point, total / static_cast<double>(options.ring.size())));
+    rows.push_back(FootOnEdge(cells, start, point, total / static_cast<double>(rings.vertices().size())));
   }
   if (options.tip) {
     const BSplineBasis& bu = cells.basis_u();
     rows.push_back({0.5 * (bu.begin() + bu.end()), cells.basis_v().end(), options.tip_share * total,
                     *options.tip, Eigen::Matrix3d::Identity()});
   }
-  double perimeter = 0;
-  for (std::size_t i = 0; i < options.ring.size(); ++i) {
-    perimeter += (options.ring[(i + 1) % options.ring.size()] - options.ring[i]).norm();
-  }
   for (const EdgeSample& sample : samples) {
     const SurfaceCells::Jet1 jet = cells.Evaluate1(sample.u, sample.v);
     const double length = sample.step * (sample.edge < 2 ? jet.dv : jet.du).norm();
     Eigen::Vector3d nearest, direction;
-    NearestOnRing(options.ring, ring_tree, sample.position, &nearest, &direction);
-    rows.push_back({sample.u, sample.v, total * length / perimeter, nearest, SquareTo(direction)});
+    rings.Nearest(sample.position, &nearest, &direction);
+    rows.push_back({sample.u, sample.v, total * length / rings.length(), nearest, SquareTo(direction)});
   }
   return rows;
 }

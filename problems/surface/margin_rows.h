@@ -9,10 +9,11 @@
 
 namespace frond {
 
-// Pulls a surface's four edges and a cloud's boundary onto each other (MATH.md §1, "Conforming").
+// Pulls a surface's edges and a cloud's boundary onto each other (MATH.md §1, "Conforming" and "Tubes with an
+// open rim"). Closed directions and poles have no edge.
 struct MarginOptions {
-  std::vector<Eigen::Vector3d> ring;  // closed polygon through the cloud's boundary points
-  double weight = 0.1;                // of each direction, against the N points together
+  std::vector<std::vector<Eigen::Vector3d>> rings;  // closed polygons through the cloud's boundary points
+  double weight = 0.1;                              // of each direction, against the N points together
   int samples_per_edge = 60;
   // How often a point counts whose foot lies on an edge: the margin's teeth, where the largest distances are.
   double outside_weight = 60;
@@ -30,7 +31,7 @@ struct MarginRow {
   Eigen::Matrix3d matrix;
 };
 
-// The rows at the present surface: ring points to the nearest point of the four edges, square to the edge;
+// The rows at the present surface: ring points to the nearest point of the edges, square to the edge;
 // edge samples to the nearest segment of the ring, square to the segment, each weighted by the length it
 // stands for. `num_points` is N.
 std::vector<MarginRow> MakeMarginRows(const SurfaceCells& cells, const MarginOptions& options,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problems/surface/outliers.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -211,21 +212,59 @@ std::vector<std::uint8_t> StrayPoints(std::span<const Eigen::Vector3d> points) {
   return stray;
 }
 
+namespace {
+
+// Whether a point that stands out in its offset does so in the cloud as well: from the plane through its
+// twelve nearest, or from the nearest that is no candidate itself.
+bool StandsApart(std::size_t i, std::span<const Eigen::Vector3d> points,
+                 const std::vector<std::uint8_t>& candidate, const KdTree& tree, double height, double gap) {
+  constexpr std::size_t kPlane = 12;
+  std::array<KdTree::Neighbour, 48> neighbours;
+  const std::size_t found = tree.Nearest(points[i], neighbours);
+  const auto none = std::find_if(neighbours.begin(), neighbours.begin() + static_cast<std::ptrdiff_t>(found),
+                                 [&](const auto& n) { return candidate[n.index] == 0; });
+  if (none == neighbours.begin() + static_cast<std::ptrdiff_t>(found) || none->squared_distance > gap * gap) {
+    return true;
+  }
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  double count = 0;
+  for (std::size_t k = 0; k < std::min(found, kPlane + 1); ++k) {
+    if (neighbours[k].index == i) continue;
+    const Eigen::Vector3d d = points[neighbours[k].index] - points[i];
+    mean += d;
+    spread += d * d.transpose();
+    ++count;
+  }
+  mean /= count;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread / count - mean * mean.transpose());
+  return std::abs(axes.eigenvectors().col(0).dot(mean)) > height;
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> OutlyingPoints(std::span<const Eigen::Vector3d> points,
                                          std::span<const Eigen::Vector3d> offsets, const KdTree& tree,
                                          double threshold) {
+  constexpr double kLeastLimit = 0.5;  // of a spacing: less does not show in a surface through the others
   const std::size_t stride = std::max<std::size_t>(1, points.size() / 4000);
   std::vector<double> sample;
   for (std::size_t i = 0; i < points.size(); i += stride) {
     sample.push_back(StandsOutBy(i, points, offsets, tree));
   }
-  const double limit = threshold * 1.4826 * Median(std::move(sample));
-  std::vector<std::uint8_t> outlying(points.size(), 0);
+  const double spacing = PointSpacing(points, tree);
+  const double limit = std::max(threshold * 1.4826 * Median(std::move(sample)), kLeastLimit * spacing);
+  std::vector<std::uint8_t> candidate(points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     // Half the limit is a cheap sieve: a point that near would need a neighbourhood as far off on the other
     // side.
-    if (offsets[i].norm() <= 0.5 * limit) continue;
-    outlying[i] = StandsOutBy(i, points, offsets, tree) > limit;
+    candidate[i] = offsets[i].norm() > 0.5 * limit && StandsOutBy(i, points, offsets, tree) > limit;
+  }
+  // Where the surface's own error turns within a neighbourhood, a point stands out in its offset alone.
+  std::vector<std::uint8_t> outlying = candidate;
+  const double gap = std::max(0.5 * limit, 3 * spacing);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (candidate[i]) outlying[i] = StandsApart(i, points, candidate, tree, 0.5 * limit, gap);
   }
   return outlying;
 }

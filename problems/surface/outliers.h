@@ -24,8 +24,10 @@ std::vector<std::uint8_t> StrayPoints(std::span<const Eigen::Vector3d> points);
 
 // Points that stand out from their surroundings, as 1: |o_i − median of the 12 nearest points' o| > threshold
 // · σ with o the offsets from a surface (point less foot), the median by coordinates, σ = 1.4826 · the median
-// of that length over a sample. What a whole neighbourhood has in common is the surface's error, not an
-// outlier's.
+// of that length over a sample, threshold · σ at least half a spacing of the points. What a whole
+// neighbourhood has in common is the surface's error, not an outlier's; nor is a point one that lies within
+// half of that of the plane through those neighbours and within three spacings of the nearest point that does
+// not stand out.
 std::vector<std::uint8_t> OutlyingPoints(std::span<const Eigen::Vector3d> points,
                                          std::span<const Eigen::Vector3d> offsets, const KdTree& tree,
                                          double threshold);

@@ -177,6 +177,15 @@ PointDistances MeasureDistances(std::span<const Eigen::Vector3d> points, const N
   return result;
 }
 
+std::vector<Eigen::Vector3d> SurfaceSamples(const TrimmedSurface& surface, int threads) {
+  const SampleGrid grid = SampleSurface(surface, threads);
+  std::vector<Eigen::Vector3d> samples;
+  for (std::size_t k = 0; k < grid.position.size(); ++k) {
+    if (grid.inside[k]) samples.push_back(grid.position[k]);
+  }
+  return samples;
+}
+
 SurfaceQuality JudgeSurface(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& outlier,
                             const PointDistances& distances, const TrimmedSurface& surface,
                             const ScanResolution& scan, const KdTree& tree, int threads) {

@@ -43,6 +43,9 @@ struct ScanResolution {
   double noise = 0;    // LocalNoise
 };
 
+// A regular grid of samples over the domain, about 40,000, those inside the trim.
+std::vector<Eigen::Vector3d> SurfaceSamples(const TrimmedSurface& surface, int threads);
+
 // `outlier`: 1 for points that do not count as data (may be empty: none). `tree` holds `points`.
 SurfaceQuality JudgeSurface(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& outlier,
                             const PointDistances& distances, const TrimmedSurface& surface,

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problems/surface/thin_plate.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 namespace frond {
 namespace {
@@ -26,9 +29,18 @@ std::array<Eigen::MatrixXd, 3> SpanGram(const SpanPolynomials& spans, int k, dou
   return gram;
 }
 
+// What the squared second derivatives by u count at v, a share of the domain.
+double WeightAlongU(double v, PoleEnds poles) {
+  if (!poles.any()) return 1;
+  constexpr double kLeastSine = 0.08;
+  const double turn = std::numbers::pi * (poles.begin && poles.end ? 1.0 : 0.5);
+  const double s = std::max(kLeastSine, std::sin(turn * (poles.begin ? v : 1 - v)));
+  return 1 / (s * s);
+}
+
 }  // namespace
 
-std::vector<Eigen::MatrixXd> ThinPlateGram(const SurfaceCells& cells) {
+std::vector<Eigen::MatrixXd> ThinPlateGram(const SurfaceCells& cells, PoleEnds poles, double membrane) {
   const BSplineBasis &bu = cells.basis_u(), &bv = cells.basis_v();
   std::vector<std::array<Eigen::MatrixXd, 3>> gu, gv;
   for (int k = 0; k < cells.u().count(); ++k) gu.push_back(SpanGram(cells.u(), k, bu.end() - bu.begin()));
@@ -36,11 +48,17 @@ std::vector<Eigen::MatrixXd> ThinPlateGram(const SurfaceCells& cells) {
   const Eigen::Index nu = cells.u().degree() + 1, nv = cells.v().degree() + 1;
   std::vector<Eigen::MatrixXd> grams;
   for (const auto& u : gu) {
-    for (const auto& v : gv) {
+    for (int kv = 0; kv < cells.v().count(); ++kv) {
+      const auto& v = gv[static_cast<std::size_t>(kv)];
+      const double middle =
+          (cells.v().begin(kv) + 0.5 * cells.v().length(kv) - bv.begin()) / (bv.end() - bv.begin());
+      const double along_u = WeightAlongU(middle, poles), mixed = std::sqrt(along_u);
       Eigen::MatrixXd gram(nu * nv, nu * nv);
       for (Eigen::Index i = 0; i < nu; ++i) {
         for (Eigen::Index k = 0; k < nu; ++k) {
-          gram.block(i * nv, k * nv, nv, nv) = u[2](i, k) * v[0] + 2 * u[1](i, k) * v[1] + u[0](i, k) * v[2];
+          gram.block(i * nv, k * nv, nv, nv) = along_u * u[2](i, k) * v[0] + 2 * mixed * u[1](i, k) * v[1] +
+                                               u[0](i, k) * v[2] +
+                                               membrane * (u[1](i, k) * v[0] + u[0](i, k) * v[1]);
         }
       }
       grams.push_back(std::move(gram));

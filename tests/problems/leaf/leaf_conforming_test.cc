@@ -7,7 +7,7 @@
 
 #include "problems/leaf/leaf_paper_fit.h"
 #include "problems/leaf/synthetic_leaf_scan.h"
-#include "problems/surface/sheet_fit.h"
+#include "problems/surface/surface_fit.h"
 #include "solvers/solver.h"
 #include "tests/problems/leaf/scanned_leaves.h"
 
@@ -15,15 +15,15 @@ namespace frond {
 namespace {
 
 // The leaf in its frame, conforming, 5 × 5 of degree (2, 2), control points and weights free.
-SheetFit FitConforming(const LeafScan& scan, const LeafPaperFit& paper) {
-  SheetFitOptions options;
+SurfaceFit FitConforming(const LeafScan& scan, const LeafPaperFit& paper) {
+  SurfaceFitOptions options;
   options.degree = {2, 2};
   options.control_points = {5, 5};
   options.unknowns = SurfaceUnknowns::kBoth;
   options.tie_tip = true;
   const SolverType& lm = FindSolverType("lm");
   Options solver_options(lm.options);
-  for (const auto& [name, value] : SheetFitSolverDefaults("lm", options)) solver_options.Set(name, value);
+  for (const auto& [name, value] : SurfaceFitSolverDefaults("lm", options)) solver_options.Set(name, value);
   std::vector<Eigen::Vector3d> local;
   for (const auto& point : scan.points) local.push_back(paper.frame.FromInput(point));
   std::vector<Eigen::Vector3d> control_points;
@@ -31,7 +31,7 @@ SheetFit FitConforming(const LeafScan& scan, const LeafPaperFit& paper) {
     control_points.push_back(paper.frame.FromInput(point));
   }
   const NurbsSurface start(paper.surface.u(), paper.surface.v(), control_points, paper.surface.weights());
-  return FitSheet(local, {}, start, options, *lm.create(solver_options), {}, {});
+  return FitSurface(local, {}, start, options, *lm.create(solver_options), {}, {});
 }
 
 TEST(LeafConforming, AtThePapersNet_BeatsThePaperOnEveryLeaf) {
@@ -39,7 +39,7 @@ TEST(LeafConforming, AtThePapersNet_BeatsThePaperOnEveryLeaf) {
   for (int leaf = 1; leaf <= kLeaves; ++leaf) {
     const LeafScan& scan = ScannedLeaf(leaf);
     const LeafPaperFit paper = FitLeafAsInPaper(scan.points, {});
-    const SheetFit fit = FitConforming(scan, paper);
+    const SurfaceFit fit = FitConforming(scan, paper);
     std::vector<Eigen::Vector3d> truth;
     for (const auto& point : scan.dense_clean) truth.push_back(paper.frame.FromInput(point));
     ASSERT_FALSE(truth.empty());

@@ -13,8 +13,10 @@
 #include <cmath>
 #include <memory>
 
+#include "base/random.h"
 #include "models/foot_point_search.h"
 #include "problems/surface/distance_residual.h"
+#include "tests/models/closed_surfaces.h"
 #include "tests/problems/surface/wavy_sheet.h"
 
 namespace frond {
@@ -67,7 +69,11 @@ struct Case {
   SurfaceUnknowns unknowns = SurfaceUnknowns::kControlPoints;
   bool tied = false, margin = false;
   RobustLoss loss = {};
+  bool closed = false;  // an egg instead of the sheet
+  PoleEnds poles = {};
 };
+
+NurbsSurface StartOf(const Case& c) { return c.closed ? Egg(c.poles) : MakeSurface(c.sheet); }
 
 std::vector<Case> Cases() {
   const WavySheet bicubic{.uneven_knots = true};
@@ -87,7 +93,17 @@ std::vector<Case> Cases() {
           {"margin_both_tied", rational, kBoth, true, true},
           {"huber", bicubic, kControlPoints, false, false, {RobustLossType::kHuber, 0.3}},
           {"cauchy", rational, kBoth, false, false, {RobustLossType::kCauchy, 0.3}},
-          {"tukey", bicubic, kControlPoints, false, false, {RobustLossType::kTukey, 2}}};
+          {"tukey", bicubic, kControlPoints, false, false, {RobustLossType::kTukey, 2}},
+          {.name = "tube", .closed = true},
+          {.name = "tube_both", .unknowns = kBoth, .closed = true},
+          {.name = "cup", .closed = true, .poles = {.begin = true}},
+          {.name = "cup_with_pole_at_its_end", .closed = true, .poles = {.end = true}},
+          {.name = "cup_margin", .margin = true, .closed = true, .poles = {.begin = true}},
+          {.name = "sphere", .closed = true, .poles = {.begin = true, .end = true}},
+          {.name = "sphere_cauchy",
+           .loss = {RobustLossType::kCauchy, 0.3},
+           .closed = true,
+           .poles = {.begin = true, .end = true}}};
 }
 
 DistanceFitOptions OptionsFor(const Case& c, const NurbsSurface& surface) {
@@ -97,17 +113,18 @@ DistanceFitOptions OptionsFor(const Case& c, const NurbsSurface& surface) {
   options.hinge = 0.5;
   options.hinge_limit = 1.02;
   options.loss = c.loss;
+  options.poles = c.poles;
   if (c.tied) {
     options.tied.emplace_back();
     for (int i = 0; i < surface.count_u(); ++i) options.tied[0].push_back((i + 1) * surface.count_v() - 1);
   }
   if (c.margin) {
-    MarginOptions margin;
+    std::vector<Eigen::Vector3d> ring;
     for (int k = 0; k < 200; ++k) {
       const double a = 2 * M_PI * k / 200;
-      margin.ring.emplace_back(25 + 26 * std::cos(a), 10 + 11 * std::sin(a), std::sin(3 * a));
+      ring.emplace_back(25 + 26 * std::cos(a), 10 + 11 * std::sin(a), std::sin(3 * a));
     }
-    options.margin = margin;
+    options.margin = MarginOptions{.rings = {ring}};
   }
   return options;
 }
@@ -116,7 +133,7 @@ class DistanceFitCases : public testing::TestWithParam<Case> {};
 
 TEST_P(DistanceFitCases, StructuredRows_EqualAutoDiffRows) {
   const Case& c = GetParam();
-  const NurbsSurface start = MakeSurface(c.sheet);
+  const NurbsSurface start = StartOf(c);
   const auto points = PointsAround(start, 600, 0.4, 60, 5);
   DistanceFitOptions options = OptionsFor(c, start);
   const SurfaceDistanceFit structured(points, start, start, options, 1);
@@ -127,7 +144,7 @@ TEST_P(DistanceFitCases, StructuredRows_EqualAutoDiffRows) {
 
 TEST_P(DistanceFitCases, CostWithoutJacobians_EqualsCostWithThem) {
   const Case& c = GetParam();
-  const NurbsSurface start = MakeSurface(c.sheet);
+  const NurbsSurface start = StartOf(c);
   const auto points = PointsAround(start, 600, 0.4, 60, 5);
   const SurfaceDistanceFit fit(points, start, start, OptionsFor(c, start), 1);
   const double cost = EvaluateFit(fit).cost;
@@ -248,6 +265,41 @@ TEST(DistanceFit, CompressedProblemWithRobustLoss_EqualsABlockPerPoint) {
   ExpectCompressedEqualsPlain({}, SurfaceUnknowns::kControlPoints, {RobustLossType::kHuber, 0.2});
   ExpectCompressedEqualsPlain({}, SurfaceUnknowns::kControlPoints, {RobustLossType::kCauchy, 0.2});
   ExpectCompressedEqualsPlain({}, SurfaceUnknowns::kBoth, {RobustLossType::kTukey, 1.5});
+}
+
+TEST(DistanceFit, CompressedProblemWithPoles_EqualsABlockPerPoint) {
+  for (const PoleEnds poles : {PoleEnds{true, false}, PoleEnds{true, true}}) {
+    const NurbsSurface start = Egg(poles);
+    const auto points = PointsAround(start, 800, 0.2, 100, 6);
+    DistanceFitOptions options;
+    options.poles = poles;
+    options.fairness = options.hinge = 0;
+    const std::vector<Eigen::Vector2d> feet = ExactFeet(points, start);
+    const Evaluation compressed = EvaluateFit(SurfaceDistanceFit(points, start, start, options, 1, feet));
+    const ControlNet net(start, SurfaceUnknowns::kControlPoints, {}, poles);
+    PlainProblem plain(points, start, net, {}, feet);
+    EXPECT_EQ(plain.feet_on_edges > 0, !poles.end);  // a pole is no edge
+    EXPECT_EQ(plain.feet_in_corners, 0);
+    ExpectEqual(compressed, Evaluate(&plain.problem()), 1e-10, 1e-9);
+  }
+}
+
+TEST(DistanceFit, SurfaceAtWithPoles_StaysC1) {
+  const PoleEnds poles{.begin = true, .end = true};
+  const NurbsSurface start = Egg(poles);
+  const auto points = PointsAround(start, 300, 0.2, 0, 6);
+  DistanceFitOptions options;
+  options.poles = poles;
+  const SurfaceDistanceFit fit(points, start, start, options, 1);
+  std::vector<double> x = fit.StartVector();
+  Random random(9);
+  for (double& value : x) value += 0.1 * random.Normal();
+  const NurbsSurface surface = fit.SurfaceAt(x);
+  EXPECT_TRUE(SurfaceCells(surface).poles().begin && SurfaceCells(surface).poles().end);
+  const Eigen::Vector3d normal = surface.EvaluateWithDerivatives(0, 1e-7).Normal();
+  for (int k = 1; k < 9; ++k) {
+    EXPECT_LT((surface.EvaluateWithDerivatives(k / 9.0, 1e-7).Normal() - normal).norm(), 1e-5);
+  }
 }
 
 }  // namespace

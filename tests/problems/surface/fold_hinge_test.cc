@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
+#include "tests/models/closed_surfaces.h"
 #include "tests/problems/surface/wavy_sheet.h"
 
 namespace frond {
@@ -32,13 +34,21 @@ struct HingeResidual {
       sums[d].setZero();
       weights[d] = T(0.0);
     }
-    for (std::size_t k = 0; k < layout->place.size(); ++k) {
-      const T* block = blocks[layout->place[k]];
+    for (std::size_t k = 0; k < layout->terms.size(); ++k) {
+      const std::vector<BlockTerm>& terms = layout->terms[k];
       const std::size_t control_point = layout->control_points[k];
       T weight(net->start_weights()[control_point]);
       Vector point = net->start_points()[control_point].template cast<T>();
-      if (net->unknowns() != SurfaceUnknowns::kControlPoints) weight = exp(block[size - 1]);
-      if (net->unknowns() != SurfaceUnknowns::kWeights) point = Vector(block[0], block[1], block[2]);
+      if (net->unknowns() != SurfaceUnknowns::kControlPoints) {
+        weight = exp(blocks[terms[0].block][size - 1]);
+      }
+      if (net->unknowns() != SurfaceUnknowns::kWeights) {
+        point.setZero();
+        for (const BlockTerm& term : terms) {
+          const T* block = blocks[term.block];
+          point += term.factor * Vector(block[0], block[1], block[2]);
+        }
+      }
       for (int d = 0; d < 3; ++d) {
         const T factor = weight * basis(static_cast<Eigen::Index>(k), d);
         sums[d] += factor * point;
@@ -72,14 +82,14 @@ NurbsSurface Crumpled(const NurbsSurface& surface) {
   for (Eigen::Vector3d& point : points) {
     point += 6 * Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal());
   }
+  if (surface.u().periodic()) {
+    const auto repeats = static_cast<std::size_t>(surface.u().degree() * surface.count_v());
+    std::copy_n(points.begin(), repeats, points.end() - static_cast<std::ptrdiff_t>(repeats));
+  }
   return NurbsSurface(surface.u(), surface.v(), points, surface.weights());
 }
 
-void ExpectRowsOfDefinition(SurfaceUnknowns unknowns, bool rational,
-                            const std::vector<std::vector<int>>& tied) {
-  const NurbsSurface reference =
-      MakeSurface({.degree_u = 2, .count_u = 5, .count_v = 6, .uneven_knots = true, .rational = rational});
-  const ControlNet net(Crumpled(reference), unknowns, tied);
+void ExpectRowsOfDefinition(const NurbsSurface& reference, const ControlNet& net) {
   SurfaceCells cells{reference};
   cells.Update(net.start_points(), net.start_weights());
   const FoldHinge hinge(SurfaceCells(reference), 0.8);
@@ -128,6 +138,13 @@ void ExpectRowsOfDefinition(SurfaceUnknowns unknowns, bool rational,
   EXPECT_GT(active, 20);
 }
 
+void ExpectRowsOfDefinition(SurfaceUnknowns unknowns, bool rational,
+                            const std::vector<std::vector<int>>& tied) {
+  const NurbsSurface reference =
+      MakeSurface({.degree_u = 2, .count_u = 5, .count_v = 6, .uneven_knots = true, .rational = rational});
+  ExpectRowsOfDefinition(reference, ControlNet(Crumpled(reference), unknowns, tied));
+}
+
 TEST(FoldHinge, RowsOverControlPoints_EqualAutoDiffOfTheDefinition) {
   ExpectRowsOfDefinition(SurfaceUnknowns::kControlPoints, false, {});
   ExpectRowsOfDefinition(SurfaceUnknowns::kControlPoints, true, {});
@@ -143,6 +160,22 @@ TEST(FoldHinge, RowsOverBoth_EqualAutoDiffOfTheDefinition) {
 
 TEST(FoldHinge, RowsOverTiedControlPoints_EqualAutoDiffOfTheDefinition) {
   ExpectRowsOfDefinition(SurfaceUnknowns::kBoth, true, {{5, 11, 17, 23, 29}});
+}
+
+TEST(FoldHinge, RowsWithPoles_EqualAutoDiffOfTheDefinition) {
+  for (const PoleEnds poles : {PoleEnds{true, false}, PoleEnds{true, true}}) {
+    const NurbsSurface egg = Egg(poles);
+    const ControlNet net(Crumpled(egg), SurfaceUnknowns::kControlPoints, {}, poles);
+    ExpectRowsOfDefinition(egg, net);
+  }
+}
+
+TEST(FoldHinge, OnAClosedReference_IsZeroAtThePolesToo) {
+  const NurbsSurface egg = Egg({.begin = true, .end = true});
+  const SurfaceCells cells(egg);
+  const FoldHinge hinge(cells, 0.999);
+  for (int cell = 0; cell < cells.count(); ++cell) EXPECT_EQ(hinge.SquaredResiduals(cells, cell, 1), 0);
+  for (const auto& sample : hinge.samples()) EXPECT_GT(sample.normal.norm(), 0);
 }
 
 TEST(FoldHinge, OnItsReference_IsZeroAndFree) {

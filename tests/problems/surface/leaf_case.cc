@@ -31,16 +31,16 @@ LeafCase MakeLeafCase(std::uint64_t seed, LeafScanOptions options) {
   return leaf;
 }
 
-std::unique_ptr<Solver> SheetSolver(const SheetFitOptions& options) {
+std::unique_ptr<Solver> SheetSolver(const SurfaceFitOptions& options) {
   const SolverType& type = FindSolverType("lm");
   Options solver_options(type.options);
-  for (const auto& [name, value] : SheetFitSolverDefaults("lm", options)) solver_options.Set(name, value);
+  for (const auto& [name, value] : SurfaceFitSolverDefaults("lm", options)) solver_options.Set(name, value);
   return type.create(solver_options);
 }
 
-SheetFit FitLeaf(std::span<const Eigen::Vector3d> points, const SheetFitOptions& options, int threads) {
-  return FitSheet(points, StrayPoints(points), std::nullopt, options, *SheetSolver(options), {},
-                  {.threads = threads, .seed = 1});
+SurfaceFit FitLeaf(std::span<const Eigen::Vector3d> points, const SurfaceFitOptions& options, int threads) {
+  return FitSurface(points, StrayPoints(points), std::nullopt, options, *SheetSolver(options), {},
+                    {.threads = threads, .seed = 1});
 }
 
 TruthErrors ErrorsAgainst(std::span<const Eigen::Vector3d> truth, const NurbsSurface& surface, int threads) {

@@ -10,7 +10,7 @@
 
 #include "models/nurbs_surface.h"
 #include "problems/leaf/synthetic_leaf_scan.h"
-#include "problems/surface/sheet_fit.h"
+#include "problems/surface/surface_fit.h"
 #include "solvers/solver.h"
 
 namespace frond {
@@ -30,9 +30,10 @@ struct LeafCase {
 LeafCase MakeLeafCase(std::uint64_t seed, LeafScanOptions options);
 
 // `lm` with the sheet fit's own defaults.
-std::unique_ptr<Solver> SheetSolver(const SheetFitOptions& options);
+std::unique_ptr<Solver> SheetSolver(const SurfaceFitOptions& options);
 
-SheetFit FitLeaf(std::span<const Eigen::Vector3d> points, const SheetFitOptions& options, int threads = 1);
+SurfaceFit FitLeaf(std::span<const Eigen::Vector3d> points, const SurfaceFitOptions& options,
+                   int threads = 1);
 
 // Distances from clean truth to the whole surface, by global search from three seeds a point.
 struct TruthErrors {

@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "base/random.h"
 #include "models/knot_vector.h"
+#include "tests/models/closed_surfaces.h"
 #include "tests/problems/surface/wavy_sheet.h"
 
 namespace frond {
@@ -62,6 +63,29 @@ TEST(FitAtParameters, PeriodicSurface_IsReproducedWithEqualRepeats) {
   const Samples samples = SamplesOf(tube, 2000);
   const NurbsSurface fit = FitAtParameters(samples.points, samples.parameters, u, v, 0);
   EXPECT_LT(LargestDifference(fit, tube), 1e-9);
+}
+
+TEST(FitAtParameters, SurfaceWithPoles_IsReproduced) {
+  for (const PoleEnds poles : {PoleEnds{true, false}, PoleEnds{false, true}, PoleEnds{true, true}}) {
+    const NurbsSurface egg = Egg(poles);
+    const Samples samples = SamplesOf(egg, 3000);
+    const NurbsSurface fit = FitAtParameters(samples.points, samples.parameters, egg.u(), egg.v(), 0, poles);
+    EXPECT_LT(LargestDifference(fit, egg), 1e-9);
+  }
+}
+
+TEST(FitAtParameters, WithPoles_IsC1EvenWhereTheDataIsNot) {
+  const PoleEnds poles{.begin = true, .end = true};
+  const NurbsSurface tube = Egg({});  // open at both ends
+  const Samples samples = SamplesOf(tube, 3000);
+  const NurbsSurface fit =
+      FitAtParameters(samples.points, samples.parameters, tube.u(), tube.v(), 1e-9, poles);
+  for (const double v : {1e-7, 1 - 1e-7}) {
+    const Eigen::Vector3d normal = fit.EvaluateWithDerivatives(0, v).Normal();
+    for (int k = 1; k < 9; ++k) {
+      EXPECT_LT((fit.EvaluateWithDerivatives(k / 9.0, v).Normal() - normal).norm(), 1e-4);
+    }
+  }
 }
 
 TEST(FitAtParameters, Fairness_CarriesTheSurfaceOverAHole) {

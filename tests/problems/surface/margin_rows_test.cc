@@ -37,7 +37,7 @@ double Cost(const SurfaceCells& cells, const MarginRow& row) {
 TEST(MarginRows, RingOnTheEdges_CostsNothing) {
   const SurfaceCells cells(Rectangle());
   MarginOptions options;
-  options.ring = RectangleRing(0, 0, 50, 20, 0);
+  options.rings = {RectangleRing(0, 0, 50, 20, 0)};
   const auto rows = MakeMarginRows(cells, options, 1000);
   EXPECT_EQ(rows.size(), 100U + 4 * 60);
   for (const MarginRow& row : rows) EXPECT_NEAR(Cost(cells, row), 0, 1e-16);
@@ -46,7 +46,7 @@ TEST(MarginRows, RingOnTheEdges_CostsNothing) {
 TEST(MarginRows, RingAboveTheEdges_CostsItsHeightBothWays) {
   const SurfaceCells cells(Rectangle());
   MarginOptions options;
-  options.ring = RectangleRing(0, 0, 50, 20, 0.5);
+  options.rings = {RectangleRing(0, 0, 50, 20, 0.5)};
   double total = 0;
   for (const MarginRow& row : MakeMarginRows(cells, options, 1000)) total += Cost(cells, row);
   EXPECT_NEAR(total, 2 * 0.1 * 1000 * 0.25, 1e-6);  // weight · N · height², once for each direction
@@ -56,7 +56,7 @@ TEST(MarginRows, SurfaceThatOverhangs_IsPulledInByItsEdgeSamples) {
   // The ring is a small piece in one corner: its own rows alone would be content with the two edges there.
   const SurfaceCells cells(Rectangle());
   MarginOptions options;
-  options.ring = RectangleRing(0, 0, 10, 10, 0);
+  options.rings = {RectangleRing(0, 0, 10, 10, 0)};
   double largest = 0;
   for (const MarginRow& row : MakeMarginRows(cells, options, 1000)) {
     const Eigen::Vector3d r = cells.Evaluate(row.u, row.v) - row.target;
@@ -68,7 +68,7 @@ TEST(MarginRows, SurfaceThatOverhangs_IsPulledInByItsEdgeSamples) {
 TEST(MarginRows, Matrices_AreProjectionsOfRankTwoOrThree) {
   const NurbsSurface surface = MakeSurface({.uneven_knots = true, .rational = true});
   MarginOptions options;
-  options.ring = RectangleRing(-2, -3, 52, 22, 1);
+  options.rings = {RectangleRing(-2, -3, 52, 22, 1)};
   for (const MarginRow& row : MakeMarginRows(SurfaceCells(surface), options, 1000)) {
     EXPECT_TRUE((row.matrix * row.matrix).isApprox(row.matrix, 1e-12));
     const double rank = row.matrix.trace();
@@ -85,7 +85,7 @@ TEST(MarginRows, PeriodicDirection_HasNoEdges) {
     for (int j = 0; j < 2; ++j) control_points.emplace_back(5.0 * j, std::cos(a), std::sin(a));
   }
   MarginOptions options;
-  options.ring = RectangleRing(0, 0, 1, 1, 0);
+  options.rings = {RectangleRing(0, 0, 1, 1, 0)};
   const auto rows = MakeMarginRows(SurfaceCells(NurbsSurface(u, v, control_points)), options, 1000);
   EXPECT_EQ(rows.size(), 100U + 2 * 60);
   for (const MarginRow& row : rows) EXPECT_TRUE(row.v == 0 || row.v == 1);

@@ -77,7 +77,9 @@ struct Offsets {
     for (std::size_t i = 0; i < points.size(); ++i) values.emplace_back(0, 0, 0.01 * random.Normal());
   }
   std::vector<std::uint8_t> Outlying(double threshold) const {
-    return OutlyingPoints(points, values, KdTree(points), threshold);
+    std::vector<Eigen::Vector3d> scan = points;  // the surface is the plane z = 0
+    for (std::size_t i = 0; i < scan.size(); ++i) scan[i] += values[i];
+    return OutlyingPoints(scan, values, KdTree(scan), threshold);
   }
 };
 
@@ -94,7 +96,7 @@ TEST(OutlyingPoints, SinglePointsThatStandOut_AreFoundOnBothSides) {
 
 TEST(OutlyingPoints, PointThatStandsOutSideways_IsFound) {
   Offsets offsets;
-  offsets.values[10].y() = 0.2;
+  offsets.values[10] = {-0.2 - offsets.points[10].x(), 0, 0};  // beyond the edge
   const auto outlying = offsets.Outlying(6);
   EXPECT_EQ(Count(outlying), 1);
   EXPECT_EQ(outlying[10], 1);

@@ -3,21 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
 
 #include "models/knot_vector.h"
 #include "problems/surface/linear_start.h"
+#include "tests/models/closed_surfaces.h"
 #include "tests/problems/surface/wavy_sheet.h"
 
 namespace frond {
 namespace {
 
 // Σ over cells and coordinates of Pᵀ G P.
-double Energy(const NurbsSurface& surface) {
+double Energy(const NurbsSurface& surface, PoleEnds poles = {}, double membrane = 0) {
   const SurfaceCells cells(surface);
-  const std::vector<Eigen::MatrixXd> grams = ThinPlateGram(cells);
+  const std::vector<Eigen::MatrixXd> grams = ThinPlateGram(cells, poles, membrane);
   const int p = surface.u().degree(), q = surface.v().degree();
   double energy = 0;
   for (int ku = 0; ku < cells.u().count(); ++ku) {
@@ -35,8 +37,15 @@ double Energy(const NurbsSurface& surface) {
   return energy;
 }
 
-// The same by 8 Gauss points a cell and direction, from the surface's own second derivatives.
-double EnergyByQuadrature(const NurbsSurface& surface) {
+// What the square of S_uu counts at the angle from the pole that v stands for; of S_uv its root.
+double WeightAt(double v, PoleEnds poles) {
+  if (!poles.any()) return 1;
+  const double angle = poles.begin && poles.end ? M_PI * v : M_PI / 2 * (poles.begin ? v : 1 - v);
+  return std::pow(std::max(0.08, std::sin(angle)), -2);
+}
+
+// The same by 8 Gauss points a cell and direction, from the surface's own derivatives.
+double EnergyByQuadrature(const NurbsSurface& surface, PoleEnds poles = {}, double membrane = 0) {
   constexpr double kNode[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
   constexpr double kWeight[] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                 0.1012285362903763};
@@ -45,6 +54,8 @@ double EnergyByQuadrature(const NurbsSurface& surface) {
   double energy = 0;
   for (int ku = 0; ku < cells.u().count(); ++ku) {
     for (int kv = 0; kv < cells.v().count(); ++kv) {
+      const double along_u =
+          WeightAt((cells.v().begin(kv) + cells.v().length(kv) / 2 - surface.v().begin()) / dv, poles);
       for (int g = 0; g < 64; ++g) {
         const int i = g / 8, j = g % 8;
         const double s = (1 + (i % 2 == 0 ? 1 : -1) * kNode[i / 2]) / 2;
@@ -53,8 +64,10 @@ double EnergyByQuadrature(const NurbsSurface& surface) {
             kWeight[i / 2] * kWeight[j / 2] / 4 * cells.u().length(ku) * cells.v().length(kv) / (du * dv);
         const SurfacePoint at = surface.EvaluateWithDerivatives(
             cells.u().begin(ku) + s * cells.u().length(ku), cells.v().begin(kv) + t * cells.v().length(kv));
-        energy += weight * ((at.duu * du * du).squaredNorm() + 2 * (at.duv * du * dv).squaredNorm() +
-                            (at.dvv * dv * dv).squaredNorm());
+        energy += weight * (along_u * (at.duu * du * du).squaredNorm() +
+                            2 * std::sqrt(along_u) * (at.duv * du * dv).squaredNorm() +
+                            (at.dvv * dv * dv).squaredNorm() +
+                            membrane * ((at.du * du).squaredNorm() + (at.dv * dv).squaredNorm()));
       }
     }
   }
@@ -68,6 +81,22 @@ TEST(ThinPlate, RandomSurfaces_MatchQuadratureOfTheirSecondDerivatives) {
     const double expected = EnergyByQuadrature(surface);
     EXPECT_NEAR(Energy(surface), expected, 1e-10 * expected) << p << " x " << q;
   }
+}
+
+TEST(ThinPlate, SurfacesWithPoles_WeighWhatRunsRoundThem) {
+  for (const PoleEnds poles : {PoleEnds{true, false}, PoleEnds{false, true}, PoleEnds{true, true}}) {
+    const NurbsSurface egg = Egg(poles);
+    const double expected = EnergyByQuadrature(egg, poles);
+    EXPECT_NEAR(Energy(egg, poles), expected, 1e-10 * expected);
+    EXPECT_GT(expected, 1.1 * Energy(egg));
+  }
+}
+
+TEST(ThinPlate, Membrane_AddsTheFirstDerivatives) {
+  const NurbsSurface sheet = MakeSurface({.uneven_knots = true});
+  const double expected = EnergyByQuadrature(sheet, {}, 30);
+  EXPECT_NEAR(Energy(sheet, {}, 30), expected, 1e-10 * expected);
+  EXPECT_GT(expected, 1.1 * Energy(sheet));
 }
 
 TEST(ThinPlate, PolynomialSurface_HasItsKnownEnergy) {

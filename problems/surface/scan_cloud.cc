@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "problems/surface/sheet_cloud.h"
+#include "problems/surface/scan_cloud.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "problems/surface/local_noise.h"
@@ -20,7 +21,7 @@ std::vector<Eigen::Vector3d> InOrder(std::span<const Eigen::Vector3d> points,
 
 }  // namespace
 
-SheetCloud::SheetCloud(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray)
+ScanCloud::ScanCloud(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray)
     : order_(SpatialOrder(points)),
       points_(InOrder(points, order_)),
       stray_(points.size(), 0),
@@ -29,23 +30,35 @@ SheetCloud::SheetCloud(std::span<const Eigen::Vector3d> points, const std::vecto
   outlier_ = stray_;
   CollectInliers();
   if (points_.empty()) return;
+  Eigen::AlignedBox3d box;
+  for (const auto& point : points_) box.extend(point);
+  size_ = box.diagonal().norm();
   resolution_.spacing = PointSpacing(points_, tree_);
   resolution_.noise = LocalNoise(points_, outlier_, tree_);
 }
 
-void SheetCloud::CollectInliers() {
+// Where scan and fit are exact, the rest is rounding and has no outliers.
+std::vector<std::uint8_t> ScanCloud::Outlying(const std::vector<Eigen::Vector3d>& offsets,
+                                              double threshold) const {
+  constexpr double kExact = 1e-6;  // of the cloud's size
+  std::vector<std::uint8_t> found = OutlyingPoints(points_, offsets, tree_, threshold);
+  for (std::size_t i = 0; i < found.size(); ++i) found[i] = found[i] && offsets[i].norm() > kExact * size_;
+  return found;
+}
+
+void ScanCloud::CollectInliers() {
   inliers_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!outlier_[i]) inliers_.push_back(points_[i]);
   }
 }
 
-bool SheetCloud::RemoveOutliers(const std::vector<Eigen::Vector3d>& inlier_offsets, double threshold) {
+bool ScanCloud::RemoveOutliers(const std::vector<Eigen::Vector3d>& inlier_offsets, double threshold) {
   std::vector<Eigen::Vector3d> offsets(points_.size(), Eigen::Vector3d::Zero());
   for (std::size_t i = 0, k = 0; i < points_.size(); ++i) {
     if (!outlier_[i]) offsets[i] = inlier_offsets[k++];
   }
-  const std::vector<std::uint8_t> found = OutlyingPoints(points_, offsets, tree_, threshold);
+  const std::vector<std::uint8_t> found = Outlying(offsets, threshold);
   bool any = false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (outlier_[i] || !found[i]) continue;
@@ -56,8 +69,8 @@ bool SheetCloud::RemoveOutliers(const std::vector<Eigen::Vector3d>& inlier_offse
   return any;
 }
 
-void SheetCloud::JudgeOutliers(const std::vector<Eigen::Vector3d>& offsets, double threshold) {
-  outlier_ = OutlyingPoints(points_, offsets, tree_, threshold);
+void ScanCloud::JudgeOutliers(const std::vector<Eigen::Vector3d>& offsets, double threshold) {
+  outlier_ = Outlying(offsets, threshold);
   for (std::size_t i = 0; i < points_.size(); ++i) outlier_[i] = outlier_[i] || stray_[i];
   CollectInliers();
 }

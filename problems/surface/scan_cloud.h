@@ -12,10 +12,10 @@
 namespace frond {
 
 // A scan in its frame, put in spatial order, with what it can tell and which of its points are outliers.
-class SheetCloud {
+class ScanCloud {
  public:
   // `stray`: 1 for points that are outliers from the start, by point, or empty.
-  SheetCloud(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray);
+  ScanCloud(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray);
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }    // all, in spatial order
   const std::vector<Eigen::Vector3d>& inliers() const { return inliers_; }  // in the same order
@@ -39,6 +39,7 @@ class SheetCloud {
   }
 
  private:
+  std::vector<std::uint8_t> Outlying(const std::vector<Eigen::Vector3d>& offsets, double threshold) const;
   void CollectInliers();
 
   std::vector<std::uint32_t> order_;
@@ -46,6 +47,7 @@ class SheetCloud {
   std::vector<std::uint8_t> stray_, outlier_;
   KdTree tree_;
   ScanResolution resolution_;
+  double size_ = 0;  // the diagonal of the points' bounding box
 };
 
 }  // namespace frond

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a sheet fit must not depend on, and what it refuses.
-#include "problems/surface/sheet_fit.h"
+#include "problems/surface/surface_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -24,13 +24,13 @@ using Points = std::vector<Eigen::Vector3d>;
 // One scan and its fit that all invariance tests compare with.
 struct Standard {
   LeafCase leaf = MakeLeafCase(3, {.points = 6000, .outlier_share = 0.01, .dense_points = 1000});
-  SheetFitOptions options = [] {
-    SheetFitOptions some;
+  SurfaceFitOptions options = [] {
+    SurfaceFitOptions some;
     some.control_points = {12, 14};
     some.subset = 2000;
     return some;
   }();
-  SheetFit fit = FitLeaf(leaf.points, options);
+  SurfaceFit fit = FitLeaf(leaf.points, options);
   double size = fit.surface.surface.Size();
 };
 
@@ -46,7 +46,7 @@ Points InLeafFrame(const Points& points) {
   return moved;
 }
 
-void ExpectSameDistances(const SheetFit& fit, const SheetFit& standard, double unit) {
+void ExpectSameDistances(const SurfaceFit& fit, const SurfaceFit& standard, double unit) {
   const double tolerance = 1e-6 * TheStandard().size;
   ASSERT_EQ(fit.outlier, standard.outlier);
   for (std::size_t i = 0; i < fit.outlier.size(); ++i) {
@@ -58,7 +58,7 @@ void ExpectSameDistances(const SheetFit& fit, const SheetFit& standard, double u
   EXPECT_NEAR(fit.quality.rmse / unit, standard.quality.rmse, tolerance);
 }
 
-TEST(SheetFitInvariance, RigidMotion_ChangesNoDistance) {
+TEST(SurfaceFitInvariance, RigidMotion_ChangesNoDistance) {
   const Standard& standard = TheStandard();
   const Eigen::Isometry3d motion =
       Eigen::Translation3d(120, -45, 300) * Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, -2, 0.5).normalized());
@@ -67,14 +67,14 @@ TEST(SheetFitInvariance, RigidMotion_ChangesNoDistance) {
   ExpectSameDistances(FitLeaf(InLeafFrame(moved), standard.options), standard.fit, 1);
 }
 
-TEST(SheetFitInvariance, MetresInsteadOfMillimetres_ChangeNoDistance) {
+TEST(SurfaceFitInvariance, MetresInsteadOfMillimetres_ChangeNoDistance) {
   const Standard& standard = TheStandard();
   Points metres;
   for (const auto& point : standard.leaf.points) metres.push_back(1e-3 * point);
   ExpectSameDistances(FitLeaf(metres, standard.options), standard.fit, 1e-3);
 }
 
-TEST(SheetFitInvariance, PointOrder_ChangesNoDistance) {
+TEST(SurfaceFitInvariance, PointOrder_ChangesNoDistance) {
   const Standard& standard = TheStandard();
   std::vector<std::size_t> order(standard.leaf.points.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -82,8 +82,8 @@ TEST(SheetFitInvariance, PointOrder_ChangesNoDistance) {
   for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random.Below(i + 1)]);
   Points shuffled;
   for (const auto i : order) shuffled.push_back(standard.leaf.points[i]);
-  const SheetFit fit = FitLeaf(shuffled, standard.options);
-  SheetFit back = fit;
+  const SurfaceFit fit = FitLeaf(shuffled, standard.options);
+  SurfaceFit back = fit;
   for (std::size_t k = 0; k < order.size(); ++k) {
     back.outlier[order[k]] = fit.outlier[k];
     back.distances.signed_distance[order[k]] = fit.distances.signed_distance[k];
@@ -91,9 +91,9 @@ TEST(SheetFitInvariance, PointOrder_ChangesNoDistance) {
   ExpectSameDistances(back, standard.fit, 1);
 }
 
-TEST(SheetFitInvariance, ThreadCount_ChangesNotAByte) {
+TEST(SurfaceFitInvariance, ThreadCount_ChangesNotAByte) {
   const Standard& standard = TheStandard();
-  const SheetFit two = FitLeaf(standard.leaf.points, standard.options, 2);
+  const SurfaceFit two = FitLeaf(standard.leaf.points, standard.options, 2);
   EXPECT_EQ(two.surface.surface.control_points(), standard.fit.surface.surface.control_points());
   EXPECT_EQ(two.surface.trim, standard.fit.surface.trim);
   EXPECT_EQ(two.outlier, standard.fit.outlier);
@@ -105,8 +105,8 @@ TEST(SheetFitInvariance, ThreadCount_ChangesNotAByte) {
   EXPECT_EQ(two.report.objective, standard.fit.report.objective);
 }
 
-TEST(SheetFit, Report_CountsAllStages) {
-  const SheetFit& fit = TheStandard().fit;
+TEST(SurfaceFit, Report_CountsAllStages) {
+  const SurfaceFit& fit = TheStandard().fit;
   EXPECT_NE(fit.report.termination, Termination::kFailed);
   EXPECT_GT(fit.report.iterations, 3);
   ASSERT_GT(fit.report.trace.size(), 3U);
@@ -119,60 +119,60 @@ TEST(SheetFit, Report_CountsAllStages) {
   EXPECT_EQ(names, (std::vector<std::string>{"points", "fit", "distances", "trim", "quality"}));
 }
 
-TEST(SheetFit, Budget_IsHeldOverAllStages) {
+TEST(SurfaceFit, Budget_IsHeldOverAllStages) {
   const Standard& standard = TheStandard();
   Budget budget;
   budget.max_evaluations = standard.fit.report.evaluations / 3;
-  const SheetFit fit = FitSheet(standard.leaf.points, StrayPoints(standard.leaf.points), std::nullopt,
-                                standard.options, *SheetSolver(standard.options), budget, {});
+  const SurfaceFit fit = FitSurface(standard.leaf.points, StrayPoints(standard.leaf.points), std::nullopt,
+                                    standard.options, *SheetSolver(standard.options), budget, {});
   EXPECT_EQ(fit.report.termination, Termination::kEvaluationBudget);
   // A stage's start and last step are counted whole.
   EXPECT_LT(fit.report.evaluations, standard.fit.report.evaluations);
 }
 
-TEST(SheetFit, FromAGivenStart_KeepsItsFrameAndImprovesIt) {
+TEST(SurfaceFit, FromAGivenStart_KeepsItsFrameAndImprovesIt) {
   const Standard& standard = TheStandard();
-  SheetFitOptions coarse = standard.options;
+  SurfaceFitOptions coarse = standard.options;
   coarse.control_points = {6, 8};
   coarse.margin = MarginMode::kTrim;
-  const SheetFit start = FitLeaf(standard.leaf.points, coarse);
-  const SheetFit fit =
-      FitSheet(standard.leaf.points, StrayPoints(standard.leaf.points), start.surface.surface,
-               standard.options, *SheetSolver(standard.options), {}, {});
+  const SurfaceFit start = FitLeaf(standard.leaf.points, coarse);
+  const SurfaceFit fit =
+      FitSurface(standard.leaf.points, StrayPoints(standard.leaf.points), start.surface.surface,
+                 standard.options, *SheetSolver(standard.options), {}, {});
   EXPECT_LT(fit.quality.inlier_rmse, start.quality.inlier_rmse);
   EXPECT_LT(fit.quality.inlier_rmse, 1.05 * standard.fit.quality.inlier_rmse);
   EXPECT_EQ(fit.quality.flipped_normals, 0);
 }
 
-TEST(SheetFit, RobustLoss_HoldsAgainstOutliersThatAreKept) {
+TEST(SurfaceFit, RobustLoss_HoldsAgainstOutliersThatAreKept) {
   const Standard& standard = TheStandard();
-  SheetFitOptions options = standard.options;
+  SurfaceFitOptions options = standard.options;
   options.outlier_threshold = 0;
   options.loss = "tukey";
-  const SheetFit fit = FitLeaf(standard.leaf.points, options);
+  const SurfaceFit fit = FitLeaf(standard.leaf.points, options);
   EXPECT_EQ(std::count(fit.outlier.begin(), fit.outlier.end(), 1), 0);
   EXPECT_LE(ErrorsAgainst(standard.leaf.clean_points, fit.surface.surface).rmse, 0.05);
 }
 
-SheetFit FitPoints(const Points& points, std::array<int, 2> net = {20, 20}) {
-  SheetFitOptions options;
+SurfaceFit FitPoints(const Points& points, std::array<int, 2> net = {20, 20}) {
+  SurfaceFitOptions options;
   options.control_points = net;
   return FitLeaf(points, options);
 }
 
-TEST(SheetFitErrors, CollinearPoints_HaveNoArea) {
+TEST(SurfaceFitErrors, CollinearPoints_HaveNoArea) {
   Points line;
   for (int i = 0; i < 1000; ++i) line.emplace_back(i, 0, 0);
   EXPECT_THROW(FitPoints(line, {4, 4}), InputError);
 }
 
-TEST(SheetFitErrors, NoOneOrEqualPoints_HaveNoArea) {
+TEST(SurfaceFitErrors, NoOneOrEqualPoints_HaveNoArea) {
   EXPECT_THROW(FitPoints({}), InputError);
   EXPECT_THROW(FitPoints({{1, 2, 3}}), InputError);
   EXPECT_THROW(FitPoints(Points(500, Eigen::Vector3d(1, 2, 3)), {4, 4}), InputError);
 }
 
-TEST(SheetFitErrors, FewerPointsThanControlPoints_SaysHowManyCan) {
+TEST(SurfaceFitErrors, FewerPointsThanControlPoints_SaysHowManyCan) {
   Points points;
   for (const auto& p : JitteredSquare(10, 1)) points.emplace_back(10 * p.x(), 10 * p.y(), 0);
   try {
@@ -183,7 +183,7 @@ TEST(SheetFitErrors, FewerPointsThanControlPoints_SaysHowManyCan) {
   }
 }
 
-TEST(SheetFitErrors, PlaneOfTenPoints_IsTooFewForTheDefaultAndEnoughForAPatch) {
+TEST(SurfaceFitErrors, PlaneOfTenPoints_IsTooFewForTheDefaultAndEnoughForAPatch) {
   Points points;
   for (int i = 0; i < 10; ++i) points.emplace_back(i % 4, i / 4, 0);
   EXPECT_THROW(FitPoints(points), InputError);

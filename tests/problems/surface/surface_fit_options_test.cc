@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
-#include "problems/surface/sheet_fit.h"
+#include "problems/surface/surface_fit.h"
 
 namespace frond {
 namespace {
 
-TEST(SheetFitOptions, OfAnEmptyConfig_AreTheDefaults) {
-  const SheetFitOptions read = SheetFitOptionsFrom(Options(SheetFitSpecs())), defaults;
+TEST(SurfaceFitOptions, OfAnEmptyConfig_AreTheDefaults) {
+  const SurfaceFitOptions read = SurfaceFitOptionsFrom(Options(SurfaceFitSpecs())), defaults;
   EXPECT_EQ(read.degree, defaults.degree);
   EXPECT_EQ(read.control_points, defaults.control_points);
   EXPECT_EQ(read.unknowns, defaults.unknowns);
@@ -24,9 +24,9 @@ TEST(SheetFitOptions, OfAnEmptyConfig_AreTheDefaults) {
   EXPECT_EQ(read.subset, defaults.subset);
 }
 
-TEST(SheetFitOptions, AreReadFromAConfig) {
+TEST(SurfaceFitOptions, AreReadFromAConfig) {
   using List = std::vector<double>;
-  Options options(SheetFitSpecs());
+  Options options(SurfaceFitSpecs());
   options.Set("surface.degree", List{2, 4});
   options.Set("surface.control_points", List{7, 12});
   options.Set("fit.unknowns", std::string("both"));
@@ -35,7 +35,7 @@ TEST(SheetFitOptions, AreReadFromAConfig) {
   options.Set("fit.fairness", 1e-7);
   options.Set("fit.loss", std::string("huber"));
   options.Set("fit.subset", std::int64_t{5000});
-  const SheetFitOptions read = SheetFitOptionsFrom(options);
+  const SurfaceFitOptions read = SurfaceFitOptionsFrom(options);
   EXPECT_EQ(read.degree, (std::array<int, 2>{2, 4}));
   EXPECT_EQ(read.control_points, (std::array<int, 2>{7, 12}));
   EXPECT_EQ(read.unknowns, SurfaceUnknowns::kBoth);
@@ -46,14 +46,14 @@ TEST(SheetFitOptions, AreReadFromAConfig) {
   EXPECT_EQ(read.subset, 5000);
 }
 
-TEST(SheetFitOptions, AutoNet_IsZeroByZero) {
-  Options options(SheetFitSpecs());
+TEST(SurfaceFitOptions, AutoNet_IsZeroByZero) {
+  Options options(SurfaceFitSpecs());
   options.Set("surface.control_points", std::string("auto"));
-  EXPECT_EQ(SheetFitOptionsFrom(options).control_points, (std::array<int, 2>{0, 0}));
+  EXPECT_EQ(SurfaceFitOptionsFrom(options).control_points, (std::array<int, 2>{0, 0}));
 }
 
-TEST(SheetFitOptions, OutOfRange_AreRefusedByName) {
-  Options options(SheetFitSpecs());
+TEST(SurfaceFitOptions, OutOfRange_AreRefusedByName) {
+  Options options(SurfaceFitSpecs());
   EXPECT_THROW(options.Set("surface.degree", std::vector<double>{3, 13}), ConfigError);
   EXPECT_THROW(options.Set("surface.control_points", std::vector<double>{1, 20}), ConfigError);
   EXPECT_THROW(options.Set("fit.hinge_limit", 1.5), ConfigError);
@@ -61,7 +61,7 @@ TEST(SheetFitOptions, OutOfRange_AreRefusedByName) {
 }
 
 TEST(MarginFor, CoarseNets_Conform_AndFineOnesAreTrimmed) {
-  SheetFitOptions options;
+  SurfaceFitOptions options;
   EXPECT_EQ(MarginFor(options, {5, 5}), MarginMode::kConforming);
   EXPECT_EQ(MarginFor(options, {7, 7}), MarginMode::kConforming);
   EXPECT_EQ(MarginFor(options, {5, 8}), MarginMode::kTrim);
@@ -69,10 +69,10 @@ TEST(MarginFor, CoarseNets_Conform_AndFineOnesAreTrimmed) {
   EXPECT_EQ(MarginFor(options, {5, 5}), MarginMode::kNone);
 }
 
-TEST(SheetFitSolverDefaults, AreOptionsThatTheSolverKnows) {
+TEST(SurfaceFitSolverDefaults, AreOptionsThatTheSolverKnows) {
   for (const SolverType& type : SolverTypes()) {
     Options options(type.options);
-    for (const auto& [name, value] : SheetFitSolverDefaults(type.name, {})) {
+    for (const auto& [name, value] : SurfaceFitSolverDefaults(type.name, {})) {
       EXPECT_NO_THROW(options.Set(name, value)) << type.name << ' ' << name;
     }
   }

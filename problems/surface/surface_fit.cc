@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "problems/surface/sheet_fit.h"
+#include "problems/surface/surface_fit.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,9 +7,9 @@
 
 #include "base/errors.h"
 #include "problems/surface/net_choice.h"
+#include "problems/surface/scan_cloud.h"
 #include "problems/surface/sheet_boundary.h"
-#include "problems/surface/sheet_cloud.h"
-#include "problems/surface/sheet_stages.h"
+#include "problems/surface/surface_fit_stages.h"
 
 namespace frond {
 namespace {
@@ -26,9 +26,9 @@ void CheckInput(std::span<const Eigen::Vector3d> points, std::array<int, 2> net)
 }
 
 // The net asked for or, with {0, 0}, the one chosen; `report` and `budget` then bear what the choice took.
-std::array<int, 2> FindNet(const SheetCloud& cloud, const std::optional<NurbsSurface>& start,
-                           const SheetFitOptions& options, const Solver& solver, const SolveContext& context,
-                           Budget* budget, SolverReport* report) {
+std::array<int, 2> FindNet(const ScanCloud& cloud, const std::optional<NurbsSurface>& start,
+                           const SurfaceFitOptions& options, const Solver& solver,
+                           const SolveContext& context, Budget* budget, SolverReport* report) {
   if (options.control_points[0] > 0) return options.control_points;
   const NetChoice choice =
       ChooseNet(cloud.inliers(), start, options, cloud.resolution(), solver, *budget, context);
@@ -36,6 +36,16 @@ std::array<int, 2> FindNet(const SheetCloud& cloud, const std::optional<NurbsSur
   budget->max_evaluations -= report->evaluations;
   budget->max_seconds -= report->seconds;
   return choice.net;
+}
+
+FitUncertainty UncertaintyOf(const std::vector<Eigen::Vector3d>& points, const TrimmedSurface& surface,
+                             const DistanceFitOptions& options, int threads) {
+  constexpr int kSegments = 64;  // along the domain, about
+  const auto spans = std::max(surface.surface.u().spans().size(), surface.surface.v().spans().size());
+  SurfaceMesh mesh = Tessellate(surface, std::max(2, kSegments / static_cast<int>(spans)));
+  SurfaceUncertainty estimate =
+      EstimateUncertainty(points, surface.surface, options, mesh.parameters, mesh.normals, threads);
+  return {std::move(mesh), std::move(estimate)};
 }
 
 }  // namespace
@@ -49,15 +59,16 @@ void CheckPointCount(std::size_t points, std::array<int, 2> control_points) {
                    " x " + most);
 }
 
-SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray,
-                  const std::optional<NurbsSurface>& start, const SheetFitOptions& options,
-                  const Solver& solver, const Budget& budget, const SolveContext& context) {
+SurfaceFit FitSurface(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray,
+                      const std::optional<NurbsSurface>& start, const SurfaceFitOptions& options,
+                      const Solver& solver, const Budget& budget, const SolveContext& context) {
+  CheckTopologyOptions(options);
   StageClock clock;
   const int least = std::max({options.degree[0], options.degree[1], 4}) + 1;
   const bool automatic = options.control_points[0] == 0;
   CheckInput(points, automatic ? std::array<int, 2>{least, least} : options.control_points);
   const bool find_outliers = options.outlier_threshold > 0;
-  SheetCloud cloud(points, find_outliers ? stray : std::vector<std::uint8_t>());
+  ScanCloud cloud(points, find_outliers ? stray : std::vector<std::uint8_t>());
   clock.End("points");
 
   Budget left = budget;
@@ -66,7 +77,7 @@ SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::vector<std
   CheckInput(cloud.inliers(), net);
   if (automatic) clock.End("choose_net");
 
-  SheetStages stages(options, net, cloud.resolution(), solver, left, context);
+  SurfaceFitStages stages(options, net, cloud.resolution(), solver, left, context);
   NurbsSurface surface = stages.Fit(&cloud.inliers(), start, [&](const PointDistances& distances) {
     return find_outliers && cloud.RemoveOutliers(distances.offsets, options.outlier_threshold);
   });
@@ -75,15 +86,17 @@ SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::vector<std
   if (find_outliers) cloud.JudgeOutliers(distances.offsets, options.outlier_threshold);
   clock.End("distances");
 
-  SheetFit result{.surface = {std::move(surface), {}},
-                  .control_points = net,
-                  .margin = stages.margin(),
-                  .outlier = {},
-                  .distances = {},
-                  .quality = {},
-                  .report = stages.report(),
-                  .stages = {},
-                  .warnings = {}};
+  SurfaceFit result{.surface = {std::move(surface), {}},
+                    .control_points = net,
+                    .margin = stages.margin(),
+                    .outlier = {},
+                    .distances = {},
+                    .quality = {},
+                    .errors = {},
+                    .uncertainty = {},
+                    .report = stages.report(),
+                    .stages = {},
+                    .warnings = {}};
   result.report.evaluations += choice.evaluations;
   result.report.residual_evaluations += choice.residual_evaluations;
   result.report.jacobian_evaluations += choice.jacobian_evaluations;
@@ -103,20 +116,35 @@ SheetFit FitSheet(std::span<const Eigen::Vector3d> points, const std::vector<std
   }
   result.quality = JudgeSurface(cloud.points(), cloud.outlier(), distances, result.surface,
                                 cloud.resolution(), cloud.tree(), context.threads);
+  // Of a distance fit the parameters are the feet.
+  std::vector<Eigen::Vector2d> parameters;
+  if (options.method != SurfaceMethod::kDistance) parameters = stages.Parameters(cloud.points());
+  result.errors = MeasureSurfaceErrors(cloud.points(), parameters, distances, result.surface,
+                                       cloud.resolution().spacing, context.threads);
+  if (parameters.empty()) {
+    result.errors.parametric_total = result.errors.perpendicular_total;
+    result.errors.parametric_mean = result.errors.perpendicular_mean;
+  }
   result.outlier = cloud.InGivenOrder(cloud.outlier());
   result.distances = {cloud.InGivenOrder(distances.signed_distance), cloud.InGivenOrder(distances.feet),
                       cloud.InGivenOrder(distances.offsets)};
   clock.End("quality");
+  if (options.uncertainty) {
+    result.uncertainty =
+        UncertaintyOf(cloud.inliers(), result.surface, stages.last_options(), context.threads);
+    clock.End("uncertainty");
+  }
   result.stages = clock.stages();
   return result;
 }
 
-SheetJudgement JudgeSheet(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray,
-                          const TrimmedSurface& surface, int threads) {
-  const SheetCloud cloud(points, stray);
+FitJudgement JudgeFit(std::span<const Eigen::Vector3d> points, const std::vector<std::uint8_t>& stray,
+                      const TrimmedSurface& surface, int threads) {
+  const ScanCloud cloud(points, stray);
   const PointDistances distances = MeasureDistances(cloud.points(), surface.surface, threads);
   return {JudgeSurface(cloud.points(), cloud.outlier(), distances, surface, cloud.resolution(), cloud.tree(),
                        threads),
+          MeasureSurfaceErrors(cloud.points(), {}, distances, surface, cloud.resolution().spacing, threads),
           {cloud.InGivenOrder(distances.signed_distance), cloud.InGivenOrder(distances.feet),
            cloud.InGivenOrder(distances.offsets)}};
 }

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kNoise = 0.05;
 
-class SheetFitOnLeaves : public testing::TestWithParam<int> {};
+class SurfaceFitOnLeaves : public testing::TestWithParam<int> {};
 
-TEST_P(SheetFitOnLeaves, At20By20_IsAccurateAndCheatsNowhere) {
+TEST_P(SurfaceFitOnLeaves, At20By20_IsAccurateAndCheatsNowhere) {
   const LeafCase leaf = MakeLeafCase(static_cast<std::uint64_t>(GetParam()), {.noise = kNoise});
-  const SheetFit fit = FitLeaf(leaf.points, {});
+  const SurfaceFit fit = FitLeaf(leaf.points, {});
   const TruthErrors errors = ErrorsAgainst(leaf.dense_clean, fit.surface.surface);
   EXPECT_LE(errors.rmse, 0.015);
   EXPECT_LE(fit.quality.max, 6 * kNoise + errors.max);  // no foot left behind
@@ -31,11 +31,11 @@ TEST_P(SheetFitOnLeaves, At20By20_IsAccurateAndCheatsNowhere) {
   EXPECT_LE(std::count(fit.outlier.begin(), fit.outlier.end(), 1), 40);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, SheetFitOnLeaves, ::testing::Range(1, 9));  // a hill; the wildest
+INSTANTIATE_TEST_SUITE_P(Seeds, SurfaceFitOnLeaves, ::testing::Range(1, 9));  // a hill; the wildest
 
-TEST(SheetFit, WithOutliers_FindsThemAndFitsTheRest) {
+TEST(SurfaceFit, WithOutliers_FindsThemAndFitsTheRest) {
   const LeafCase leaf = MakeLeafCase(2, {.points = 20000, .noise = kNoise, .outlier_share = 0.02});
-  const SheetFit fit = FitLeaf(leaf.points, {});
+  const SurfaceFit fit = FitLeaf(leaf.points, {});
   int thrown = 0, found = 0, false_alarms = 0;
   for (std::size_t i = 0; i < leaf.points.size(); ++i) {
     const bool outlier = leaf.scan.kinds[i] == ScanPointKind::kOutlier;
@@ -54,9 +54,9 @@ TEST(SheetFit, WithOutliers_FindsThemAndFitsTheRest) {
   EXPECT_NEAR(fit.quality.area, leaf.scan.measures.area, 0.01 * leaf.scan.measures.area);
 }
 
-TEST(SheetFit, WithHoles_IsCarriedOverThemAndReportsThem) {
+TEST(SurfaceFit, WithHoles_IsCarriedOverThemAndReportsThem) {
   const LeafCase leaf = MakeLeafCase(2, {.points = 20000, .noise = kNoise, .holes = 3, .hole_radius = 3});
-  const SheetFit fit = FitLeaf(leaf.points, {});
+  const SurfaceFit fit = FitLeaf(leaf.points, {});
   std::vector<Eigen::Vector3d> scanned, holes;
   for (std::size_t i = 0; i < leaf.dense_clean.size(); ++i) {
     (leaf.scan.dense_scanned[i] ? scanned : holes).push_back(leaf.dense_clean[i]);
@@ -70,26 +70,26 @@ TEST(SheetFit, WithHoles_IsCarriedOverThemAndReportsThem) {
   EXPECT_GT(fit.quality.data_coverage, 1 - missing - 0.01);
 }
 
-TEST(SheetFit, WithFreeWeights_IsNoWorse) {
+TEST(SurfaceFit, WithFreeWeights_IsNoWorse) {
   const LeafCase leaf = MakeLeafCase(2, {.points = 10000, .noise = kNoise});
-  SheetFitOptions options;
+  SurfaceFitOptions options;
   options.control_points = {12, 12};
   const double points_alone =
       ErrorsAgainst(leaf.dense_clean, FitLeaf(leaf.points, options).surface.surface).rmse;
   options.unknowns = SurfaceUnknowns::kBoth;
-  const SheetFit fit = FitLeaf(leaf.points, options);
+  const SurfaceFit fit = FitLeaf(leaf.points, options);
   EXPECT_LE(ErrorsAgainst(leaf.dense_clean, fit.surface.surface).rmse, 1.1 * points_alone);
   EXPECT_TRUE(fit.surface.surface.IsRational());
   for (const double weight : fit.surface.surface.weights()) EXPECT_TRUE(weight > 0.2 && weight < 5) << weight;
   EXPECT_EQ(fit.quality.flipped_normals, 0);
 }
 
-TEST(SheetFit, ConformingAt5By5_FollowsTheOutline) {
+TEST(SurfaceFit, ConformingAt5By5_FollowsTheOutline) {
   const LeafCase leaf = MakeLeafCase(2, {.points = 10000, .noise = kNoise});
-  SheetFitOptions options;
+  SurfaceFitOptions options;
   options.control_points = {5, 5};
   options.tie_tip = true;
-  const SheetFit fit = FitLeaf(leaf.points, options);
+  const SurfaceFit fit = FitLeaf(leaf.points, options);
   EXPECT_EQ(fit.margin, MarginMode::kConforming);
   EXPECT_TRUE(fit.surface.trim.empty());
   EXPECT_LE(ErrorsAgainst(leaf.dense_clean, fit.surface.surface).rmse, 0.3);
@@ -99,11 +99,11 @@ TEST(SheetFit, ConformingAt5By5_FollowsTheOutline) {
   for (int i = 1; i < 5; ++i) EXPECT_EQ(surface.control_point(i, 4), surface.control_point(0, 4));
 }
 
-TEST(SheetFit, AutoNet_IsFineEnoughForTheLeafAndNotMore) {
+TEST(SurfaceFit, AutoNet_IsFineEnoughForTheLeafAndNotMore) {
   const LeafCase leaf = MakeLeafCase(2, {.points = 4000, .noise = kNoise});
-  SheetFitOptions options;
+  SurfaceFitOptions options;
   options.control_points = {0, 0};
-  const SheetFit fit = FitLeaf(leaf.points, options);
+  const SurfaceFit fit = FitLeaf(leaf.points, options);
   EXPECT_GE(fit.control_points[0], 7);
   EXPECT_LE(fit.control_points[0], 20);
   EXPECT_EQ(fit.surface.surface.count_u(), fit.control_points[0]);
