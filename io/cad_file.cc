@@ -3,260 +3,56 @@
 
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
-#include <IGESControl_Controller.hxx>
-#include <IGESControl_Reader.hxx>
-#include <IGESControl_Writer.hxx>
-#include <IGESData_IGESModel.hxx>
-#include <IGESData_IGESWriter.hxx>
-#include <IGESSelect_WorkLibrary.hxx>
-#include <Interface_CheckIterator.hxx>
-#include <Interface_FloatWriter.hxx>
-#include <Interface_Static.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <STEPControl_Controller.hxx>
-#include <STEPControl_Reader.hxx>
-#include <STEPControl_Writer.hxx>
-#include <STEPEdit.hxx>
 #include <ShapeAnalysis_ShapeTolerance.hxx>
-#include <Standard_Failure.hxx>
-#include <StepData_Protocol.hxx>
-#include <StepData_StepModel.hxx>
-#include <StepData_StepWriter.hxx>
-#include <TColStd_SequenceOfAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Shape.hxx>
-#include <UnitsMethods.hxx>
-#include <XSControl_WorkSession.hxx>
-#include <algorithm>
-#include <array>
-#include <mutex>
-#include <sstream>
-#include <string_view>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
 #include <utility>
 
 #include "base/errors.h"
+#include "io/cad_exchange.h"
+#include "io/cad_geometry.h"
 #include "io/cad_shape.h"
 #include "io/file_bytes.h"
-#include "io/length_unit.h"
-#include "io/number_text.h"
 
 namespace frond {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct CadUnit {
-  const char *ours, *theirs;
-  int iges_flag;          // IGES 5.3, table 2
-  const char* step_name;  // as STEPControl_Reader::FileUnits says it, lower case
-};
-constexpr std::array<CadUnit, 7> kUnits = {{{"um", "UM", 9, "micrometre"},
-                                            {"mm", "MM", 2, "millimetre"},
-                                            {"cm", "CM", 10, "centimetre"},
-                                            {"m", "M", 6, "metre"},
-                                            {"km", "KM", 7, "kilometre"},
-                                            {"in", "INCH", 1, "inch"},
-                                            {"ft", "FT", 4, "foot"}}};
+enum class Format { kStep, kIges };
 
-const CadUnit& FindUnit(const std::string& unit) {
-  MetresPerUnit(unit);  // throws where unknown
-  return *std::find_if(kUnits.begin(), kUnits.end(), [&](const CadUnit& u) { return unit == u.ours; });
+// `make` makes the shape, inside the session.
+template <typename Make>
+void WriteShape(const fs::path& path, Format format, const std::string& unit, const Make& make) {
+  const CadSession session;
+  session.SetUnit(unit);
+  WriteFileBytes(path, Guarded<FitError>(path.string(), [&] {
+                   const TopoDS_Shape shape = make();
+                   if (!BRepCheck_Analyzer(shape).IsValid()) {
+                     throw FitError(path.string() + ": Open CASCADE finds the shape invalid (does the " +
+                                    "surface or its trim cross itself?)");
+                   }
+                   return format == Format::kStep ? StepText(path, shape) : IgesText(path, shape, unit);
+                 }));
 }
 
-// Open CASCADE for the length of a call: one at a time, silent, working in `unit`, so that coordinates are
-// neither scaled on the way out nor in.
-class Session {
- public:
-  Session() : lock_(mutex_) {
-    static const bool initialised = [] {
-      Message::DefaultMessenger()->ChangePrinters().Clear();
-      STEPControl_Controller::Init();
-      IGESControl_Controller::Init();
-      Interface_Static::SetCVal("write.step.schema", "AP214IS");
-      Interface_Static::SetCVal("write.step.product.name", "frond surface");
-      Interface_Static::SetIVal("read.iges.bspline.continuity", 0);  // as written, not smoothed
-      return true;
-    }();
-    static_cast<void>(initialised);
-  }
-
-  void SetUnit(const CadUnit& unit) const {
-    Interface_Static::SetCVal("xstep.cascade.unit", unit.theirs);
-    Interface_Static::SetCVal("write.step.unit", unit.theirs);
-    Interface_Static::SetCVal("write.iges.unit", unit.theirs);
-    UnitsMethods::SetCasCadeLengthUnit(unit.iges_flag);
-  }
-
- private:
-  static std::mutex mutex_;
-  std::lock_guard<std::mutex> lock_;
-};
-std::mutex Session::mutex_;
-
-// Runs `body`; Open CASCADE's exceptions become ours.
-template <typename Error, typename Body>
-auto Guarded(const std::string& what, const Body& body) {
-  try {
-    return body();
-  } catch (const Standard_Failure& failure) {
-    std::string text = failure.GetMessageString() == nullptr ? "" : failure.GetMessageString();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    throw Error(what + ": Open CASCADE fails: " + failure.DynamicType()->Name() + " " + text);
-  }
+void WriteShape(const fs::path& path, Format format, const SurfaceDocument& document) {
+  WriteShape(path, format, document.unit, [&] { return MakeShape(document.trimmed); });
 }
 
-// 16 digits: as many as fit Open CASCADE's own buffers. Its default writes 6 to 12, and its suppression of
-// zeros drops exponents of longer formats.
-void SetFullPrecision(Interface_FloatWriter* writer) {
-  writer->SetFormat("%.15E");
-  writer->SetZeroSuppress(false);
-}
-
-TopoDS_Face CheckedFace(const fs::path& path, const SurfaceDocument& document) {
-  TopoDS_Face face = MakeFace(document.trimmed);
-  if (!BRepCheck_Analyzer(face).IsValid()) {
-    throw FitError(path.string() +
-                   ": Open CASCADE finds the face invalid (does its surface or its trim cross itself?)");
-  }
-  return face;
-}
-
-[[noreturn]] void FailWrite(const fs::path& path, const char* format) {
-  FailFile(path, std::string("cannot be written: Open CASCADE cannot make ") + format +
-                     " of this surface; write another format, for example json or obj");
-}
-
-std::string StepText(const fs::path& path, const TopoDS_Face& face) {
-  STEPControl_Writer writer;
-  if (writer.Transfer(face, STEPControl_AsIs) != IFSelect_RetDone) FailWrite(path, "STEP");
-  StepData_StepWriter out(writer.Model());
-  SetFullPrecision(&out.FloatWriter());
-  out.SendModel(Handle(StepData_Protocol)::DownCast(STEPEdit::Protocol()));
-  std::ostringstream text;
-  if (!out.Print(text)) FailWrite(path, "STEP");
-  return text.str();
-}
-
-// IGES models hold the internal unit themselves.
-void SetUnit(const CadUnit& unit, const Handle(IGESData_IGESModel) & model) {
-  IGESData_GlobalSection section = model->GlobalSection();
-  section.SetCascadeUnit(1000 * MetresPerUnit(unit.ours));
-  model->SetGlobalSection(section);
-}
-
-std::string IgesText(const fs::path& path, const TopoDS_Face& face, const CadUnit& unit) {
-  IGESControl_Writer writer(unit.theirs, /*modecr: faces as trimmed surfaces, type 144*/ 0);
-  SetUnit(unit, writer.Model());
-  if (!writer.AddShape(face)) FailWrite(path, "IGES");
-  writer.ComputeModel();
-  IGESData_IGESWriter out(writer.Model());
-  SetFullPrecision(&out.FloatWriter());
-  out.SendModel(IGESSelect_WorkLibrary::DefineProtocol());
-  std::ostringstream text;
-  if (!out.Print(text)) FailWrite(path, "IGES");
-  return text.str();
-}
-
-bool IsIges(const fs::path& path) { return Extension(path) == "igs" || Extension(path) == "iges"; }
-
-const CadUnit& StepUnit(STEPControl_Reader* reader) {
-  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
-  reader->FileUnits(lengths, angles, solid_angles);
-  if (!lengths.IsEmpty()) {
-    TCollection_AsciiString name = lengths.First();
-    name.LowerCase();
-    for (const CadUnit& unit : kUnits) {
-      if (name == unit.step_name) return unit;
-    }
-  }
-  return FindUnit("mm");  // Open CASCADE converts any other
-}
-
-// Open CASCADE 7.6 reads on with entities that did not parse, and crashes on some of them.
-void RefuseDamage(const fs::path& path, const Handle(XSControl_WorkSession) & session) {
-  const Interface_CheckIterator checks = session->ModelCheckList(Standard_True);
-  if (!checks.IsEmpty(Standard_True)) {
-    FailFile(path, "is damaged: Open CASCADE cannot read all of its entities; export it again");
-  }
-}
-
-TopoDS_Shape LoadStep(const fs::path& path, const Session& session, std::string* unit) {
-  STEPControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-    FailFile(path, "is not a STEP file that can be read");
-  RefuseDamage(path, reader.WS());
-  const CadUnit& found = StepUnit(&reader);
-  session.SetUnit(found);
-  *unit = found.ours;
-  reader.TransferRoots();
-  return reader.NbShapes() > 0 ? reader.OneShape() : TopoDS_Shape();
-}
-
-TopoDS_Shape LoadIges(const fs::path& path, const Session& session, std::string* unit) {
-  IGESControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-    FailFile(path, "is not an IGES file that can be read");
-  RefuseDamage(path, reader.WS());
-  const int flag = reader.IGESModel()->GlobalSection().UnitFlag();
-  const auto known =
-      std::find_if(kUnits.begin(), kUnits.end(), [&](const CadUnit& u) { return u.iges_flag == flag; });
-  const CadUnit& found = known == kUnits.end() ? FindUnit("mm") : *known;
-  session.SetUnit(found);
-  SetUnit(found, reader.IGESModel());
-  *unit = found.ours;
-  reader.TransferRoots();
-  return reader.NbShapes() > 0 ? reader.OneShape() : TopoDS_Shape();
-}
-
-// IGES lines have 80 columns, the section's letter in the 73rd; the last one counts the lines of each
-// section: "S      1G      4D     12P     30". Open CASCADE crashes on some files that were cut short.
-void RefuseCutIges(const fs::path& path, const std::string& bytes) {
-  constexpr std::size_t kLetter = 72;
-  const std::string sections = "SGDP";
-  std::array<std::size_t, 4> counts = {};
-  std::istringstream lines(bytes);
-  std::string line, last;
-  while (std::getline(lines, line)) {
-    if (line.size() <= kLetter) continue;
-    const std::size_t section = sections.find(line[kLetter]);
-    if (section != std::string::npos) ++counts[section];
-    last = line;
-  }
-  if (counts[0] == 0) FailFile(path, "is not an IGES file (no 'S' in column 73)");
-  bool whole = last.size() > kLetter && last[kLetter] == 'T';
-  for (std::size_t k = 0; k < sections.size() && whole; ++k) {
-    double promised = 0;
-    const std::string_view field = std::string_view(last).substr(8 * k + 1, 7);
-    const std::size_t digits = field.find_first_not_of(' ');
-    whole = last[8 * k] == sections[k] && digits != std::string_view::npos &&
-            ParseNumber(field.substr(digits), &promised) > 0 && promised == static_cast<double>(counts[k]);
-  }
-  if (!whole) FailFile(path, "is truncated: its last line does not count its lines; copy or export it again");
-}
-
-// The shape of a file. A look at its beginning spares Open CASCADE's scanners the worst.
-TopoDS_Shape Load(const fs::path& path, const Session& session, std::string* unit) {
-  const std::string bytes = ReadFileBytes(path);
-  if (bytes.empty()) FailFile(path, "is empty");
-  if (bytes.find('\0') != std::string::npos) FailFile(path, "is a binary file, not STEP or IGES");
-  if (IsIges(path)) {
-    RefuseCutIges(path, bytes);
-    return LoadIges(path, session, unit);
-  }
-  if (bytes.find("ISO-10303-21") > 1000)
-    FailFile(path, "is not a STEP file (it does not begin with ISO-10303-21)");
-  return LoadStep(path, session, unit);
+void WriteShape(const fs::path& path, Format format, const CurveDocument& document) {
+  WriteShape(path, format, document.unit, [&] { return MakeEdge(document.curve); });
 }
 
 SurfaceDocument ReadDocument(const fs::path& path) {
-  const Session session;
+  const CadSession session;
   return Guarded<InputError>(path.string(), [&]() -> SurfaceDocument {
     std::string unit;
-    const TopoDS_Shape shape = Load(path, session, &unit);
-    if (shape.IsNull()) FailFile(path, "holds no shape");
+    const TopoDS_Shape shape = LoadShape(path, session, &unit);
     for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
       const TopoDS_Face face = TopoDS::Face(faces.Current());
       const Handle(Geom_BSplineSurface) spline = SplineOf(face);
@@ -269,6 +65,19 @@ SurfaceDocument ReadDocument(const fs::path& path) {
   });
 }
 
+CurveDocument ReadCurveDocument(const fs::path& path) {
+  const CadSession session;
+  return Guarded<InputError>(path.string(), [&]() -> CurveDocument {
+    std::string unit;
+    const TopoDS_Shape shape = LoadShape(path, session, &unit);
+    for (TopExp_Explorer edges(shape, TopAbs_EDGE, TopAbs_FACE); edges.More(); edges.Next()) {
+      const Handle(Geom_BSplineCurve) spline = SplineOf(TopoDS::Edge(edges.Current()));
+      if (!spline.IsNull()) return {FromOpenCascade(*spline), unit};
+    }
+    FailFile(path, "holds no curve of its own");
+  });
+}
+
 CadCheck Check(const TopoDS_Shape& shape) {
   CadCheck check;
   check.valid = BRepCheck_Analyzer(shape).IsValid();
@@ -276,6 +85,14 @@ CadCheck Check(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(shape, properties, 1e-7);
   check.area = properties.Mass();
+  TopExp_Explorer shells(shape, TopAbs_SHELL);
+  check.closed = shells.More();
+  for (; shells.More(); shells.Next()) check.closed = check.closed && BRep_Tool::IsClosed(shells.Current());
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) ++check.solids;
+  if (check.solids > 0) {
+    BRepGProp::VolumeProperties(shape, properties, 1e-7);
+    check.volume = properties.Mass();
+  }
   check.tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(shape, 1);
   return check;
 }
@@ -283,36 +100,41 @@ CadCheck Check(const TopoDS_Shape& shape) {
 }  // namespace
 
 void WriteStep(const fs::path& path, const SurfaceDocument& document) {
-  const CadUnit& unit = FindUnit(document.unit);
-  const Session session;
-  session.SetUnit(unit);
-  WriteFileBytes(
-      path, Guarded<FitError>(path.string(), [&] { return StepText(path, CheckedFace(path, document)); }));
+  WriteShape(path, Format::kStep, document);
 }
-
 void WriteIges(const fs::path& path, const SurfaceDocument& document) {
-  const CadUnit& unit = FindUnit(document.unit);
-  const Session session;
-  session.SetUnit(unit);
-  WriteFileBytes(path, Guarded<FitError>(path.string(),
-                                         [&] { return IgesText(path, CheckedFace(path, document), unit); }));
+  WriteShape(path, Format::kIges, document);
+}
+void WriteStep(const fs::path& path, const CurveDocument& document) {
+  WriteShape(path, Format::kStep, document);
+}
+void WriteIges(const fs::path& path, const CurveDocument& document) {
+  WriteShape(path, Format::kIges, document);
 }
 
 SurfaceDocument ReadStep(const fs::path& path) { return ReadDocument(path); }
 SurfaceDocument ReadIges(const fs::path& path) { return ReadDocument(path); }
+CurveDocument ReadStepCurve(const fs::path& path) { return ReadCurveDocument(path); }
+CurveDocument ReadIgesCurve(const fs::path& path) { return ReadCurveDocument(path); }
+
+bool HasFaces(const fs::path& path) {
+  const CadSession session;
+  return Guarded<InputError>(path.string(), [&] {
+    std::string unit;
+    return TopExp_Explorer(LoadShape(path, session, &unit), TopAbs_FACE).More() == Standard_True;
+  });
+}
 
 CadCheck CheckShape(const SurfaceDocument& document) {
-  const Session session;
-  return Guarded<FitError>("the surface", [&] { return Check(MakeFace(document.trimmed)); });
+  const CadSession session;
+  return Guarded<FitError>("the surface", [&] { return Check(MakeShape(document.trimmed)); });
 }
 
 CadCheck CheckCadFile(const fs::path& path) {
-  const Session session;
+  const CadSession session;
   return Guarded<InputError>(path.string(), [&] {
     std::string unit;
-    const TopoDS_Shape shape = Load(path, session, &unit);
-    if (shape.IsNull()) FailFile(path, "holds no shape");
-    return Check(shape);
+    return Check(LoadShape(path, session, &unit));
   });
 }
 

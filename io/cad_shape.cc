@@ -2,7 +2,9 @@
 #include "io/cad_shape.h"
 
 #include <BRepAdaptor_Curve2d.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepLib.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -12,61 +14,23 @@
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
-#include <Precision.hxx>
+#include <Geom_TrimmedCurve.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/errors.h"
+#include "io/cad_geometry.h"
 #include "io/cad_trim_edges.h"
 
 namespace frond {
 namespace {
-
-gp_Pnt ToPoint(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
-struct KnotRuns {
-  std::vector<double> knots;
-  std::vector<int> multiplicities;
-};
-
-KnotRuns RunsOf(const std::vector<double>& knots) {
-  KnotRuns runs;
-  for (const double knot : knots) {
-    if (runs.knots.empty() || knot != runs.knots.back()) {
-      runs.knots.push_back(knot);
-      runs.multiplicities.push_back(0);
-    }
-    ++runs.multiplicities.back();
-  }
-  return runs;
-}
-
-template <typename Array, typename T>
-Array ToArray(const std::vector<T>& values) {
-  Array array(1, static_cast<int>(values.size()));
-  for (int k = 0; k < static_cast<int>(values.size()); ++k)
-    array(k + 1) = values[static_cast<std::size_t>(k)];
-  return array;
-}
-
-bool IsClamped(const BSplineBasis& basis) {
-  const auto& knots = basis.knots();
-  return knots.front() == basis.begin() && knots.back() == basis.end();
-}
-
-// Below this distance two points are one. Coordinates far from the origin (UTM) hold no more digits than
-// that.
-double Tolerance(const NurbsSurface& surface) {
-  double largest = 0;
-  for (const auto& point : surface.control_points()) largest = std::max(largest, point.cwiseAbs().maxCoeff());
-  return std::max(Precision::Confusion(), 16 * std::numeric_limits<double>::epsilon() * largest);
-}
 
 double SignedArea(const TrimLoop& loop) {
   double area = 0;
@@ -234,30 +198,6 @@ class LoopBuilder {
 
 }  // namespace
 
-Handle(Geom_BSplineSurface) ToOpenCascade(const NurbsSurface& surface) {
-  const KnotRuns u = RunsOf(surface.u().knots()), v = RunsOf(surface.v().knots());
-  TColgp_Array2OfPnt poles(1, surface.count_u(), 1, surface.count_v());
-  TColStd_Array2OfReal weights(1, surface.count_u(), 1, surface.count_v());
-  for (int i = 0; i < surface.count_u(); ++i) {
-    for (int j = 0; j < surface.count_v(); ++j) {
-      poles(i + 1, j + 1) = ToPoint(surface.control_point(i, j));
-      weights(i + 1, j + 1) = surface.weight(i, j);
-    }
-  }
-  const auto knots_u = ToArray<TColStd_Array1OfReal>(u.knots),
-             knots_v = ToArray<TColStd_Array1OfReal>(v.knots);
-  const auto runs_u = ToArray<TColStd_Array1OfInteger>(u.multiplicities);
-  const auto runs_v = ToArray<TColStd_Array1OfInteger>(v.multiplicities);
-  const int p = surface.u().degree(), q = surface.v().degree();
-  Handle(Geom_BSplineSurface) spline =
-      surface.IsRational() ? new Geom_BSplineSurface(poles, weights, knots_u, knots_v, runs_u, runs_v, p, q)
-                           : new Geom_BSplineSurface(poles, knots_u, knots_v, runs_u, runs_v, p, q);
-  if (!IsClamped(surface.u()) || !IsClamped(surface.v())) {
-    spline->Segment(surface.u().begin(), surface.u().end(), surface.v().begin(), surface.v().end());
-  }
-  return spline;
-}
-
 TopoDS_Face MakeFace(const TrimmedSurface& trimmed) {
   const double tolerance = Tolerance(trimmed.surface);
   const Handle(Geom_BSplineSurface) spline = ToOpenCascade(trimmed.surface);
@@ -276,6 +216,50 @@ TopoDS_Face MakeFace(const TrimmedSurface& trimmed) {
   return face;
 }
 
+TopoDS_Shape MakeShape(const TrimmedSurface& trimmed) {
+  const TopoDS_Face face = MakeFace(trimmed);
+  if (!trimmed.trim.empty()) return face;
+  BRep_Builder builder;
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  builder.Add(shell, face);
+  if (!BRep_Tool::IsClosed(shell)) return face;
+  shell.Closed(true);
+  TopoDS_Solid solid;
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  if (!BRepLib::OrientClosedSolid(solid)) throw FitError("the closed surface has no inside");
+  return solid;
+}
+
+TopoDS_Edge MakeEdge(const NurbsCurve& curve) {
+  const auto& points = curve.control_points();
+  const double tolerance = Tolerance(curve);
+  if (std::all_of(points.begin(), points.end(),
+                  [&](const auto& point) { return (point - points[0]).norm() <= tolerance; })) {
+    throw FitError("the curve is a point in space");
+  }
+  BRepBuilderAPI_MakeEdge maker(ToOpenCascade(curve));
+  if (!maker.IsDone()) throw FitError("Open CASCADE makes no edge of the curve");
+  return maker.Edge();
+}
+
+Handle(Geom_BSplineCurve) SplineOf(const TopoDS_Edge& edge) {
+  double first = 0, last = 0;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  if (curve.IsNull()) return nullptr;
+  Handle(Geom_BSplineCurve) spline = Handle(Geom_BSplineCurve)::DownCast(curve);
+  const bool whole = !spline.IsNull() && spline->FirstParameter() == first && spline->LastParameter() == last;
+  if (whole) {
+    spline = Handle(Geom_BSplineCurve)::DownCast(spline->Copy());
+  } else {
+    spline = GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last));
+  }
+  if (spline->IsPeriodic()) spline->SetNotPeriodic();
+  if (edge.Orientation() == TopAbs_REVERSED) spline->Reverse();
+  return spline;
+}
+
 Handle(Geom_BSplineSurface) SplineOf(const TopoDS_Face& face) {
   Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   if (const auto window = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface); !window.IsNull()) {
@@ -290,24 +274,6 @@ Handle(Geom_BSplineSurface) SplineOf(const TopoDS_Face& face) {
   if (spline->IsUPeriodic()) spline->SetUNotPeriodic();
   if (spline->IsVPeriodic()) spline->SetVNotPeriodic();
   return spline;
-}
-
-NurbsSurface FromOpenCascade(const Geom_BSplineSurface& s) {
-  const auto flat = [](const TColStd_Array1OfReal& sequence) {
-    return std::vector<double>(sequence.begin(), sequence.end());
-  };
-  std::vector<Eigen::Vector3d> points;
-  std::vector<double> weights;
-  for (int i = 1; i <= s.NbUPoles(); ++i) {
-    for (int j = 1; j <= s.NbVPoles(); ++j) {
-      const gp_Pnt point = s.Pole(i, j);
-      points.emplace_back(point.X(), point.Y(), point.Z());
-      // Of a surface that is not rational Open CASCADE may hold zeros for weights.
-      if (s.IsURational() || s.IsVRational()) weights.push_back(s.Weight(i, j));
-    }
-  }
-  return {BSplineBasis(s.UDegree(), flat(s.UKnotSequence())),
-          BSplineBasis(s.VDegree(), flat(s.VKnotSequence())), std::move(points), std::move(weights)};
 }
 
 namespace {

@@ -12,6 +12,7 @@
 #include "io/length_unit.h"
 #include "io/mesh_parsers.h"
 #include "io/number_text.h"
+#include "io/sha256.h"
 
 namespace frond {
 namespace {
@@ -33,18 +34,20 @@ void AppendVector(const Vector& vector, std::string* bytes) {
   for (Eigen::Index k = 0; k < vector.size(); ++k) Append(static_cast<T>(vector[k]), bytes);
 }
 
-std::string FormatPly(const SurfaceMesh& mesh) {
+std::string FormatPly(const SurfaceMesh& mesh, const VertexScalar& scalar = {}) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment frond\nelement vertex " +
                       std::to_string(mesh.vertices.size()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
   if (!mesh.normals.empty()) bytes += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!mesh.parameters.empty()) bytes += "property double s\nproperty double t\n";
+  if (!scalar.values.empty()) bytes += "property double " + scalar.name + "\n";
   bytes += "element face " + std::to_string(mesh.triangles.size()) +
            "\nproperty list uchar int vertex_indices\nend_header\n";
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     AppendVector<double>(mesh.vertices[i], &bytes);
     if (!mesh.normals.empty()) AppendVector<float>(mesh.normals[i], &bytes);
     if (!mesh.parameters.empty()) AppendVector<double>(mesh.parameters[i], &bytes);
+    if (!scalar.values.empty()) Append(scalar.values[i], &bytes);
   }
   for (const auto& triangle : mesh.triangles) {
     Append(std::uint8_t{3}, &bytes);
@@ -138,7 +141,15 @@ void WriteMesh(const std::filesystem::path& path, const SurfaceMesh& mesh, std::
   }
 }
 
-SurfaceMesh ReadMesh(const std::filesystem::path& path) {
+void WritePlyMesh(const std::filesystem::path& path, const SurfaceMesh& mesh, const VertexScalar& scalar) {
+  CheckMesh(mesh);
+  if (scalar.values.size() != mesh.vertices.size()) {
+    throw std::invalid_argument("a mesh's scalar is not as long as its vertices");
+  }
+  WriteFileBytes(path, FormatPly(mesh, scalar));
+}
+
+SurfaceMesh ReadMesh(const std::filesystem::path& path, CloudReport* report) {
   const std::string extension = Extension(path);
   const std::string bytes = ReadFileBytes(path);
   if (bytes.empty()) FailFile(path, "is empty");
@@ -154,9 +165,15 @@ SurfaceMesh ReadMesh(const std::filesystem::path& path) {
   } else {
     FailFile(path, "unknown kind of mesh '." + extension + "' (known: " + Joined(MeshReadExtensions()) + ")");
   }
-  if (mesh.triangles.empty()) FailFile(path, "holds no faces");
+  if (mesh.triangles.empty()) FailFile(path, "holds no faces: it is a cloud, not a mesh");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (!mesh.vertices[i].allFinite()) FailFile(path, "vertex " + std::to_string(i) + " is not finite");
+  }
+  if (report != nullptr) {
+    *report = CloudReport();
+    report->format = extension;
+    report->rows = mesh.vertices.size();
+    report->sha256 = Sha256(bytes);
   }
   return mesh;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/point_cloud_file.h"
 #include "models/tessellation.h"
 
 namespace frond {
@@ -19,8 +20,18 @@ const std::vector<std::string>& MeshReadExtensions();
 // that survey coordinates keep their precision). Normals and parameters may be absent. Throws InputError.
 void WriteMesh(const std::filesystem::path& path, const SurfaceMesh& mesh, std::string_view unit);
 
+// One number a vertex.
+struct VertexScalar {
+  std::string name;
+  std::vector<double> values;
+};
+
+// A .ply as above with one more property (double) a vertex. Throws InputError.
+void WritePlyMesh(const std::filesystem::path& path, const SurfaceMesh& mesh, const VertexScalar& scalar);
+
 // Faces with more than three corners are cut into fans; STL corners with equal coordinates are joined.
-// Normals and parameters are left empty. Throws InputError naming the file and the place.
-SurfaceMesh ReadMesh(const std::filesystem::path& path);
+// Normals and parameters are left empty. `report` (may be null) gets the format, the number of vertices as
+// `rows`, and the file's hash. Throws InputError naming the file and the place.
+SurfaceMesh ReadMesh(const std::filesystem::path& path, CloudReport* report = nullptr);
 
 }  // namespace frond

@@ -3,10 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,23 +10,13 @@
 #include "io/file_bytes.h"
 #include "io/length_unit.h"
 #include "io/number_text.h"
+#include "io/nurbs_json.h"
 
 namespace frond {
 namespace {
 
-using nlohmann::json;
-
 constexpr const char* kSchema = "frond.nurbs_surface/1";
 constexpr std::size_t kMaxCount = 100000;  // control points in one direction
-
-void AppendNumbers(std::span<const double> numbers, std::string* text) {
-  *text += '[';
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    if (k > 0) *text += ", ";
-    AppendNumber(numbers[k], text);
-  }
-  *text += ']';
-}
 
 // "[[item, item, …],\n [item, …]]": one row of the net (all j of one i) a line.
 template <typename AppendItem>
@@ -64,115 +50,50 @@ void AppendTrim(const std::vector<TrimLoop>& trim, std::string* text) {
   *text += ']';
 }
 
-// A value of the document and its JSON path, for messages.
-class Place {
- public:
-  Place(const json& value, const std::string& file, std::string path)
-      : value_(value), file_(file), path_(std::move(path)) {}
-
-  [[noreturn]] void Fail(const std::string& message) const {
-    throw InputError(file_ + ": " + (path_.empty() ? "" : path_ + ": ") + message);
-  }
-
-  const json& value() const { return value_; }
-
-  Place Member(const std::string& key) const {
-    const auto found = value_.find(key);
-    if (found == value_.end()) Fail("has no '" + key + "'");
-    return {*found, file_, path_.empty() ? key : path_ + "." + key};
-  }
-
-  Place Item(std::size_t index) const {
-    return {value_[index], file_, path_ + "[" + std::to_string(index) + "]"};
-  }
-
-  std::size_t ListSize(std::optional<std::size_t> expected = {}) const {
-    if (!value_.is_array()) Fail("expected a list");
-    if (expected && value_.size() != *expected) {
-      Fail("has " + std::to_string(value_.size()) + " values, expected " + std::to_string(*expected));
-    }
-    return value_.size();
-  }
-
-  double Number() const {
-    if (!value_.is_number()) Fail("expected a number");
-    const double number = value_.get<double>();
-    if (!std::isfinite(number)) Fail("is not finite");
-    return number;
-  }
-
-  std::vector<double> Numbers(std::optional<std::size_t> expected = {}) const {
-    std::vector<double> numbers(ListSize(expected));
-    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = Item(k).Number();
-    return numbers;
-  }
-
- private:
-  const json& value_;
-  const std::string& file_;
-  std::string path_;
-};
-
-BSplineBasis ParseBasis(const Place& root, std::size_t direction) {
-  root.Member("degree").ListSize(2);
-  root.Member("knots").ListSize(2);
-  root.Member("periodic").ListSize(2);
-  const Place degree = root.Member("degree").Item(direction);
-  if (!degree.value().is_number_integer()) degree.Fail("expected an integer");
-  const double value = degree.Number();
-  if (value < 1 || value > kMaxDegree) {
-    degree.Fail("is " + FormatNumber(value) + ", expected an integer in [1, " + std::to_string(kMaxDegree) +
-                "]");
-  }
-  const Place periodic = root.Member("periodic").Item(direction);
-  if (!periodic.value().is_boolean()) periodic.Fail("expected true or false");
-  const Place knots = root.Member("knots").Item(direction);
-  try {
-    return BSplineBasis(static_cast<int>(value), knots.Numbers(), periodic.value().get<bool>());
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    if (message.find(": knots[") != std::string::npos) throw;  // has its place already
-    knots.Fail(message);
-  }
+BSplineBasis ParseBasis(const JsonPlace& root, std::size_t direction) {
+  const JsonPlace degree = root.Member("degree"), knots = root.Member("knots"),
+                  periodic = root.Member("periodic");
+  degree.ListSize(2);
+  knots.ListSize(2);
+  periodic.ListSize(2);
+  return ParseBasis(degree.Item(direction), knots.Item(direction), periodic.Item(direction));
 }
 
-std::vector<Eigen::Vector3d> ParseControlPoints(const Place& net, std::size_t count_u, std::size_t count_v) {
+std::vector<Eigen::Vector3d> ParseControlPoints(const JsonPlace& net, std::size_t count_u,
+                                                std::size_t count_v) {
   std::vector<Eigen::Vector3d> points;
   net.ListSize(count_u);
   for (std::size_t i = 0; i < count_u; ++i) {
-    const Place row = net.Item(i);
+    const JsonPlace row = net.Item(i);
     row.ListSize(count_v);
     for (std::size_t j = 0; j < count_v; ++j) {
-      const Place point = row.Item(j);
-      point.ListSize(3);
-      points.emplace_back(point.Item(0).Number(), point.Item(1).Number(), point.Item(2).Number());
+      points.push_back(ParsePoint(row.Item(j)));
     }
   }
   return points;
 }
 
-std::vector<double> ParseWeights(const Place& net, std::size_t count_u, std::size_t count_v) {
+std::vector<double> ParseWeights(const JsonPlace& net, std::size_t count_u, std::size_t count_v) {
   std::vector<double> weights;
   net.ListSize(count_u);
   for (std::size_t i = 0; i < count_u; ++i) {
-    const Place row = net.Item(i);
+    const JsonPlace row = net.Item(i);
     for (std::size_t j = 0; j < row.ListSize(count_v); ++j) {
-      weights.push_back(row.Item(j).Number());
-      if (!(weights.back() > 0)) row.Item(j).Fail("a weight must be positive");
+      weights.push_back(ParseWeight(row.Item(j)));
     }
   }
   return weights;
 }
 
-std::vector<TrimLoop> ParseTrim(const Place& trim) {
+std::vector<TrimLoop> ParseTrim(const JsonPlace& trim) {
   std::vector<TrimLoop> loops;
   if (trim.value().is_null()) return loops;
   if (trim.ListSize() == 0) trim.Fail("has no loops; write null where the whole surface counts");
   for (std::size_t k = 0; k < trim.value().size(); ++k) {
-    const Place loop = trim.Item(k);
+    const JsonPlace loop = trim.Item(k);
     TrimLoop points;
     for (std::size_t i = 0; i < loop.ListSize(); ++i) {
-      const Place point = loop.Item(i);
+      const JsonPlace point = loop.Item(i);
       point.ListSize(2);
       points.emplace_back(point.Item(0).Number(), point.Item(1).Number());
     }
@@ -182,17 +103,9 @@ std::vector<TrimLoop> ParseTrim(const Place& trim) {
   return loops;
 }
 
-SurfaceDocument ParseDocument(const Place& root, const std::string& name) {
-  if (!root.value().is_object()) root.Fail("expected a JSON object");
-  const Place schema = root.Member("schema");
-  if (schema.value() != kSchema) schema.Fail(std::string("expected \"") + kSchema + "\"");
-  const Place unit = root.Member("unit");
-  if (!unit.value().is_string()) unit.Fail("expected text");
-  try {
-    MetresPerUnit(unit.value().get<std::string>());
-  } catch (const ConfigError& error) {
-    unit.Fail(error.what());
-  }
+SurfaceDocument ParseDocument(const JsonPlace& root, const std::string& name) {
+  CheckSchema(root, kSchema);
+  std::string unit = ParseUnit(root);
   BSplineBasis u = ParseBasis(root, 0), v = ParseBasis(root, 1);
   const auto count_u = static_cast<std::size_t>(u.num_control_points());
   const auto count_v = static_cast<std::size_t>(v.num_control_points());
@@ -202,7 +115,7 @@ SurfaceDocument ParseDocument(const Place& root, const std::string& name) {
   auto trim = ParseTrim(root.Member("trim"));
   try {
     NurbsSurface surface(std::move(u), std::move(v), std::move(points), std::move(weights));
-    return {{std::move(surface), std::move(trim)}, unit.value().get<std::string>()};
+    return {{std::move(surface), std::move(trim)}, std::move(unit)};
   } catch (const InputError& error) {
     throw InputError(name + ": control_points: " + error.what());
   }
@@ -224,12 +137,7 @@ std::string FormatSurfaceJson(const SurfaceDocument& document) {
   AppendNumbers(s.v().knots(), &text);
   text += "],\n  \"control_points\": ";
   AppendNet(
-      s,
-      [&](int i, int j) {
-        const Eigen::Vector3d& p = s.control_point(i, j);
-        AppendNumbers(std::array<double, 3>{p.x(), p.y(), p.z()}, &text);
-      },
-      &text);
+      s, [&](int i, int j) { AppendPoint(s.control_point(i, j), &text); }, &text);
   text += ",\n  \"weights\": ";
   AppendNet(
       s, [&](int i, int j) { AppendNumber(s.weight(i, j), &text); }, &text);
@@ -243,16 +151,8 @@ void WriteSurfaceJson(const std::filesystem::path& path, const SurfaceDocument& 
 }
 
 SurfaceDocument ParseSurfaceJson(std::string_view text, const std::string& name) {
-  json document;
-  try {
-    document = json::parse(text);
-  } catch (const json::parse_error& error) {
-    throw InputError(name + ": byte " + std::to_string(error.byte) +
-                     ": is not valid JSON (cut short or damaged?)");
-  } catch (const json::exception&) {  // a number beyond the range of a double
-    throw InputError(name + ": is not valid JSON (a number is out of range)");
-  }
-  return ParseDocument(Place(document, name, ""), name);
+  const nlohmann::json document = ParseJsonText(text, name);
+  return ParseDocument(JsonPlace(document, name), name);
 }
 
 SurfaceDocument ReadSurfaceJson(const std::filesystem::path& path) {

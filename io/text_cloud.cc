@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "io/file_bytes.h"
 #include "io/number_text.h"
@@ -99,11 +100,12 @@ std::optional<Columns> NamedColumns(const std::vector<std::string_view>& names) 
 
 class TextCloudParser {
  public:
-  TextCloudParser(const std::filesystem::path& path, std::string_view bytes) : path_(path), rest_(bytes) {}
+  TextCloudParser(const std::filesystem::path& path, std::string_view bytes)
+      : path_(path), bytes_(bytes), rest_(bytes) {}
 
   std::vector<Eigen::Vector3d> Parse() {
     std::string_view line;
-    if (!FindFirstRow(&line)) FailWithoutRows();
+    if (!FindFirstRow(&line)) return ParsePlanar();
     std::vector<Eigen::Vector3d> rows;
     rows.reserve(rest_.size() / (line.size() + 1) + 16);
     const std::size_t last_column = *std::max_element(columns_.begin(), columns_.end());
@@ -143,6 +145,47 @@ class TextCloudParser {
         if (NamedColumns(Fields(header.line, separator))) header_ = header;
       }
       if (line_ > kMaxHeaderLines && !IsComment(text)) return false;
+    }
+    return false;
+  }
+
+  // Points of a plane: below the headers, every line holds x and y alone; z is 0.
+  std::vector<Eigen::Vector3d> ParsePlanar() {
+    rest_ = bytes_;
+    line_ = 0;
+    std::vector<Eigen::Vector3d> rows;
+    std::string_view line;
+    bool swapped = false;  // a header says y, x
+    while (NextLine(&line)) {
+      line = Trimmed(line);
+      if (line.empty()) continue;
+      Eigen::Vector3d point = Eigen::Vector3d::Zero();
+      if (!IsComment(line) && ParsePlanarRow(line, rows.empty(), &point)) {
+        if (swapped) std::swap(point.x(), point.y());
+        rows.push_back(point);
+      } else if (rows.empty()) {
+        while (line.starts_with('#') || line.starts_with('/')) line.remove_prefix(1);
+        for (const char separator : kSeparators) {
+          const std::vector<std::string_view> names = Fields(line, separator);
+          if (names.size() == 2 && PlainName(names[0]) == "y" && PlainName(names[1]) == "x") swapped = true;
+        }
+      } else if (!IsComment(line)) {
+        Fail("does not hold two numbers as the lines above do; expected x, y in every line, or x, y, z");
+      }
+      if (rows.empty() && line_ > kMaxHeaderLines && !IsComment(line)) break;
+    }
+    if (rows.empty()) FailWithoutRows();
+    return rows;
+  }
+
+  bool ParsePlanarRow(std::string_view line, bool first, Eigen::Vector3d* point) {
+    for (const char separator : kSeparators) {
+      if (!first && separator != separator_) continue;
+      const std::vector<std::string_view> fields = Fields(line, separator);
+      if (fields.size() != 2 || (first && !IsNumber(fields[0]))) continue;
+      if (!ParseField(fields[0], &point->x()) || !ParseField(fields[1], &point->y())) continue;
+      separator_ = separator;
+      return true;
     }
     return false;
   }
@@ -222,13 +265,14 @@ class TextCloudParser {
   }
 
   [[noreturn]] void FailWithoutRows() const {
-    FailFile(path_,
-             "no line holds three numbers; expected x, y, z with decimal points, separated by blanks, tabs, "
-             "commas or semicolons");
+    FailFile(
+        path_,
+        "no line holds three numbers, nor do all hold two; expected x, y, z or x, y with decimal points, "
+        "separated by blanks, tabs, commas or semicolons");
   }
 
   const std::filesystem::path& path_;
-  std::string_view rest_;
+  std::string_view bytes_, rest_;
   std::size_t line_ = 0;
   std::optional<Header> header_;
   char separator_ = kBlanks;

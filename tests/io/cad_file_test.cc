@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 #include "base/errors.h"
 #include "base/random.h"
@@ -132,6 +133,84 @@ TEST_P(CadFile, OpenCascadesChecker_FindsItValidAndOfOurArea) {
   const bool creased = document.trimmed.surface.u().degree() == 1;
   EXPECT_NEAR(check.area, area, (creased ? 5e-4 : 2e-4) * area);
   EXPECT_LT(check.tolerance, 1e-5);
+}
+
+// ∮ S · dA / 3, by four Gauss points in u and v on every cell of the knots.
+double VolumeInside(const NurbsSurface& s) {
+  const double nodes[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
+  const double weights[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+  constexpr int kPieces = 4;  // to a cell, for rational surfaces
+  double sum = 0;
+  const auto pieces = [](const BSplineBasis& basis) {
+    std::vector<std::pair<double, double>> all;
+    for (const int span : basis.spans()) {
+      const auto k = static_cast<std::size_t>(span);
+      const double step = (basis.knots()[k + 1] - basis.knots()[k]) / kPieces;
+      for (int i = 0; i < kPieces; ++i) all.emplace_back(basis.knots()[k] + step * (i + 0.5), step / 2);
+    }
+    return all;
+  };
+  for (const auto& [u, half_u] : pieces(s.u())) {
+    for (const auto& [v, half_v] : pieces(s.v())) {
+      for (std::size_t a = 0; a < 4; ++a) {
+        for (std::size_t b = 0; b < 4; ++b) {
+          const SurfacePoint p = s.EvaluateWithDerivatives(u + half_u * nodes[a], v + half_v * nodes[b]);
+          sum += weights[a] * weights[b] * half_u * half_v * p.position.dot(p.du.cross(p.dv)) / 3;
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+TEST(CadFile, ClosedSurfaces_BecomeWatertightSolidsOfTheirVolume) {
+  const TempFolder folder;
+  const std::pair<const char*, NurbsSurface> cases[] = {{"pear", Pear(80)},
+                                                        {"pear, normal inward", Pear(80, true)},
+                                                        {"pear in metres", Pear(0.08)},
+                                                        {"ring", Ring()},
+                                                        {"sphere", Sphere(10)}};
+  for (const auto& [name, surface] : cases) {
+    const double volume = std::abs(VolumeInside(surface));
+    for (const char* file : {"a.step", "a.igs"}) {
+      WriteSurface(folder / file, {{surface, {}}, "m"});
+      const CadCheck check = CheckCadFile(folder / file);
+      EXPECT_TRUE(check.valid) << name << file;
+      EXPECT_EQ(check.faces, 1u) << name << file;
+      EXPECT_EQ(check.solids, 1u) << name << file;
+      EXPECT_TRUE(check.closed) << name << file;
+      EXPECT_NEAR(check.volume, volume, 1e-5 * volume) << name << file;
+    }
+    EXPECT_NEAR(CheckShape({{surface, {}}, "m"}).volume, volume, 1e-5 * volume) << name;
+  }
+  const double exact = 4000 * std::numbers::pi / 3;
+  EXPECT_NEAR(CheckShape({{Sphere(10), {}}, "mm"}).volume, exact, 1e-5 * exact);
+}
+
+TEST(CadFile, SurfacesWithARimOrATrim_StayFaces) {
+  for (const SampleSurface& sample : SampleSurfaces()) {
+    const CadCheck check = CheckShape({sample.trimmed, "mm"});
+    const bool closed = sample.name == "Pear" || sample.name == "Ring" || sample.name == "Sphere";
+    EXPECT_EQ(check.solids, closed ? 1u : 0u) << sample.name;
+    EXPECT_EQ(check.closed, closed) << sample.name;
+    EXPECT_EQ(check.volume > 0, closed) << sample.name;
+  }
+  EXPECT_EQ(CheckShape({{Pear(80), {LeafOutline(50)}}, "mm"}).solids, 0u);
+}
+
+TEST(CadFile, Files_HoldTheEntitiesOfSolidsAndFaces) {
+  const TempFolder folder;
+  WriteStep(folder / "pear.step", SurfaceDocument{{Pear(80), {}}, "mm"});
+  WriteIges(folder / "pear.igs", SurfaceDocument{{Pear(80), {}}, "mm"});
+  WriteStep(folder / "cup.step", SurfaceDocument{{Cup(), {}}, "mm"});
+  WriteIges(folder / "cup.igs", SurfaceDocument{{Cup(), {}}, "mm"});
+  const std::string step = FileText(folder / "pear.step"), iges = FileText(folder / "pear.igs");
+  EXPECT_TRUE(Holds(step.substr(0, 4000), "MANIFOLD_SOLID_BREP"));
+  EXPECT_TRUE(Holds(step.substr(0, 4000), "CLOSED_SHELL"));
+  EXPECT_NE(iges.find("     186 "), std::string::npos);
+  EXPECT_NE(iges.find("     128 "), std::string::npos);
+  EXPECT_EQ(FileText(folder / "cup.step").find("MANIFOLD_SOLID_BREP"), std::string::npos);
+  EXPECT_NE(FileText(folder / "cup.igs").find("     144 "), std::string::npos);
 }
 
 TEST(CadFile, EveryUnit_ReadsBackAtTheSameScale) {

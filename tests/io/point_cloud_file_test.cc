@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <cstdint>
 #include <cstring>
 
@@ -61,6 +61,19 @@ TEST(TextCloud, HeadersCommentsAndFurtherColumns_AreAccepted) {
   }
 }
 
+TEST(TextCloud, TwoColumns_ArePointsOfThePlaneZ0) {
+  const Points planar = {{1, 2, 0}, {4.5, -5, 0}};
+  for (const char* text :
+       {"1 2\n4.5 -5\n", "x,y\r\n1,2\r\n4.5,-5\r\n", "1\t2\n4.5\t-5", "1;2\n\n4.5;-5\n",
+        "# an outline\n1, 2\n# more\n4.5, -5\n", "2\n1 2\n4.5 -5\n", "y x\n2 1\n-5 4.5\n"}) {
+    EXPECT_EQ(ReadText(text), planar) << text;
+  }
+  std::string many = "x y\n";
+  for (int i = 0; i < 3000; ++i) many += std::to_string(i) + " 7\n";
+  EXPECT_EQ(ReadText(many).size(), 3000U);
+  EXPECT_EQ(ReadText("5 6\n1 2 3\n4.5 -5 6e-3\n"), kTwo);  // a row of three makes it a file of three
+}
+
 TEST(TextCloud, NamedColumns_AreUsedWhereverTheyStand) {
   EXPECT_EQ(ReadText("id,z,y,x\n7,3,2,1\n8,6e-3,-5,4.5\n"), kTwo);
   EXPECT_EQ(ReadText("\"Label\";\"X\";\"Y\";\"Z\"\nleaf;1;2;3\nleaf;4.5;-5;6e-3\n"), kTwo);
@@ -100,18 +113,20 @@ TEST(TextCloud, AMillionLines_TakeLessThanASecond) {
   }
   const TempFolder folder;
   const auto path = folder.Write("big.csv", text);
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();  // of this process: the machine may be busy
   EXPECT_GT(ReadPointCloud(path).points.size(), 999000u);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   RecordProperty("seconds", std::to_string(seconds));
-  EXPECT_LT(seconds, 4.0);  // 0.5 s optimised; room for debug builds and busy machines
+  EXPECT_LT(seconds, 4.0);  // 0.5 s optimised; room for debug builds
 }
 
 TEST(TextCloud, BadFiles_AreRefusedInOneLineWithThePlaceAndTheWayOut) {
   EXPECT_TRUE(Holds(ErrorOf("a.xyz", ""), "is empty"));
   EXPECT_TRUE(Holds(ErrorOf("a.xyz", "\n\n"), "no line holds three numbers"));
   EXPECT_TRUE(Holds(ErrorOf("a.xyz", "# nothing\n"), "no line holds three numbers"));
-  EXPECT_TRUE(Holds(ErrorOf("a.xyz", "1 2\n3 4\n"), "no line holds three numbers"));
+  EXPECT_TRUE(Holds(ErrorOf("a.xyz", "1\n3\n"), "no line holds three numbers"));
+  EXPECT_TRUE(Holds(ErrorOf("a.xyz", "1 2\n3\n"), "line 2: does not hold two numbers"));
+  EXPECT_TRUE(Holds(ErrorOf("a.csv", "x,y\n1,2\n3,abc\n"), "line 3: does not hold two numbers"));
   EXPECT_TRUE(Holds(ErrorOf("a.xyz", "nan nan nan\nnan 1 2\n"), "no usable points: all 2 rows"));
   EXPECT_TRUE(Holds(ErrorOf("a.xyz", "1 2 3\n1 oops 3\n"), "line 2: 'oops' is not a number (y)"));
   EXPECT_TRUE(Holds(ErrorOf("a.xyz", "1 oops 3\n1 2 3\n"), "line 1: 'oops' is not a number (y)"));

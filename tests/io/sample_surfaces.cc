@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/knot_vector.h"
+
 namespace frond {
 namespace {
 
@@ -88,6 +90,63 @@ NurbsSurface WavySheet(int degree_u, int degree_v, int count_u, int count_v, boo
   return {ClampedBasis(degree_u, count_u), ClampedBasis(degree_v, count_v), points, weights};
 }
 
+namespace {
+
+// Rows of control points from the pole up to `rows` of 12, the last of them a pole too where it is row 12.
+NurbsSurface PearRows(double length, bool clockwise, int rows) {
+  constexpr int kDistinct = 16, kDegree = 3, kLast = 11;
+  const double radii[] = {0, 0.14, 0.28, 0.36, 0.38, 0.35, 0.29, 0.22, 0.17, 0.14, 0.08, 0};
+  const double heights[] = {0, 0, 0.06, 0.16, 0.28, 0.4, 0.52, 0.64, 0.76, 0.88, 1, 1};
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < kDistinct + kDegree; ++i) {
+    const int k = i % kDistinct;
+    const double angle = (clockwise ? -2 : 2) * std::numbers::pi * k / kDistinct;
+    for (int j = 0; j < rows; ++j) {
+      const bool polar = j <= 1 || j >= kLast - 1;  // the row next to a pole lies in a plane with it
+      const double dent = polar ? 1 : 1 + 0.06 * std::sin(2 * angle + 0.5 * j);
+      const double radius = radii[j] * dent;
+      points.push_back(length * Eigen::Vector3d(radius * std::cos(angle), 0.9 * radius * std::sin(angle),
+                                                heights[j] + (polar ? 0 : 0.02 * std::cos(3 * angle))));
+    }
+  }
+  return {PeriodicUniformBasis(kDegree, kDistinct), UniformBasis(3, rows), points};
+}
+
+}  // namespace
+
+NurbsSurface Pear(double length, bool clockwise) { return PearRows(length, clockwise, 12); }
+
+NurbsSurface Cup() { return PearRows(80, false, 6); }
+
+NurbsSurface Ring() {
+  constexpr int kDistinctU = 14, kDistinctV = 9, kDegree = 3;
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < kDistinctU + kDegree; ++i) {
+    const double a = 2 * std::numbers::pi * (i % kDistinctU) / kDistinctU;
+    for (int j = 0; j < kDistinctV + kDegree; ++j) {
+      const double b = 2 * std::numbers::pi * (j % kDistinctV) / kDistinctV;
+      const double radius = 12 + 4 * std::cos(b);
+      points.emplace_back(radius * std::cos(a), radius * std::sin(a), 4 * std::sin(b) + std::sin(2 * a));
+    }
+  }
+  return {PeriodicUniformBasis(kDegree, kDistinctU), PeriodicUniformBasis(kDegree, kDistinctV), points};
+}
+
+NurbsSurface Sphere(double radius) {
+  const double x[] = {1, 1, 0, -1, -1, -1, 0, 1, 1}, y[] = {0, 1, 1, 1, 0, -1, -1, -1, 0};
+  const double r[] = {0, 1, 1, 1, 0}, z[] = {-1, -1, 0, 1, 1};
+  std::vector<Eigen::Vector3d> points;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < 9; ++i) {
+    for (std::size_t j = 0; j < 5; ++j) {
+      points.push_back(radius * Eigen::Vector3d(r[j] * x[i], r[j] * y[i], z[j]));
+      weights.push_back((i % 2 == 1 ? std::sqrt(0.5) : 1) * (j % 2 == 1 ? std::sqrt(0.5) : 1));
+    }
+  }
+  return {BSplineBasis(2, {0, 0, 0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1, 1, 1}),
+          BSplineBasis(2, {0, 0, 0, 0.5, 0.5, 1, 1, 1}), points, weights};
+}
+
 TrimLoop LeafOutline(int vertices) {
   TrimLoop loop;
   for (int k = 0; k < vertices; ++k) {
@@ -110,6 +169,10 @@ std::vector<SampleSurface> SampleSurfaces() {
           {"Periodic", {Tube(false), {}}},
           {"RationalPeriodic", {Tube(true), {}}},
           {"TrimmedPeriodic", {Tube(false), {LeafOutline(100)}}},
+          {"Pear", {Pear(80), {}}},
+          {"Cup", {Cup(), {}}},
+          {"Ring", {Ring(), {}}},
+          {"Sphere", {Sphere(10), {}}},
           {"SurveyCoordinates", {Moved(WavySheet(3, 3, 8, 6, false), survey), WithHole(200)}},
           {"Bilinear", {WavySheet(1, 1, 4, 3, false), {LeafOutline(60)}}},
           {"HighDegree", {WavySheet(5, 4, 9, 8, true), {LeafOutline(60)}}}};
