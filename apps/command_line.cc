@@ -3,6 +3,8 @@
 
 #include <gflags/gflags.h>
 
+#include <algorithm>
+
 #include "base/errors.h"
 #include "base/options.h"
 
@@ -10,8 +12,9 @@ namespace frond {
 namespace {
 
 const std::vector<std::string>& FlagNames() {
-  static const std::vector<std::string> names = {"set",  "out",   "overwrite", "threads",
-                                                 "seed", "quiet", "help",      "version"};
+  static const std::vector<std::string> names = {
+      "set",   "out",    "overwrite", "threads",         "seed", "quiet",  "size",
+      "order", "format", "volume",    "shell_thickness", "help", "version"};
   return names;
 }
 
@@ -27,10 +30,17 @@ bool IsBoolean(const std::string& name) {
   return gflags::GetCommandLineFlagInfo(name.c_str(), &info) && info.type == "bool";
 }
 
+// As users write it: gflags' own names have underscores.
+std::string Dashed(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
 [[noreturn]] void FailUnknown(const std::string& name) {
   const std::string nearest = NearestWord(name, FlagNames());
-  throw ConfigError("unknown flag '--" + name + "'" +
-                    (nearest.empty() ? "" : " (did you mean '--" + nearest + "'?)") + "; see frond --help");
+  throw ConfigError("unknown flag '--" + Dashed(name) + "'" +
+                    (nearest.empty() ? "" : " (did you mean '--" + Dashed(nearest) + "'?)") +
+                    "; see frond --help");
 }
 
 }  // namespace
@@ -52,6 +62,7 @@ std::vector<std::string> ParseFlags(int argc, char** argv) {
     const std::string body = argument.substr(dashes);
     const std::size_t equals = body.find('=');
     std::string name = body.substr(0, equals), value;
+    std::replace(name.begin(), name.end(), '-', '_');
     if (!IsKnown(name) && name.rfind("no", 0) == 0 && IsKnown(name.substr(2)) && IsBoolean(name.substr(2))) {
       name = name.substr(2);
       value = "false";
@@ -64,13 +75,13 @@ std::vector<std::string> ParseFlags(int argc, char** argv) {
     } else if (i + 1 < argc) {
       value = argv[++i];
     } else {
-      throw ConfigError("flag '--" + name + "' needs a value");
+      throw ConfigError("flag '--" + Dashed(name) + "' needs a value");
     }
     if (std::string before; name == "set" && gflags::GetCommandLineOption("set", &before)) {
       if (!before.empty()) value = before + ";" + value;  // --set adds up; of other flags the last one holds
     }
     if (gflags::SetCommandLineOption(name.c_str(), value.c_str()).empty()) {
-      throw ConfigError("flag '--" + name + "' cannot be '" + value + "'");
+      throw ConfigError("flag '--" + Dashed(name) + "' cannot be '" + value + "'");
     }
   }
   return others;

@@ -3,10 +3,12 @@
 #include <gflags/gflags.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <iostream>
 #include <limits>
 #include <new>
+#include <sstream>
 #include <thread>
 
 #include "apps/command_line.h"
@@ -14,6 +16,7 @@
 #include "base/errors.h"
 #include "experiments/convert.h"
 #include "experiments/experiment.h"
+#include "experiments/mesh_run.h"
 #include "experiments/message.h"
 #include "experiments/study/study.h"
 #include "experiments/sweep.h"
@@ -25,6 +28,11 @@ DEFINE_string(out, "", "Where to write; a run directory: runs/NAME");
 DEFINE_bool(overwrite, false, "Replace an existing run directory");
 DEFINE_int32(threads, 0, "Threads; 0: all cores. Results do not depend on it");
 DEFINE_uint64(seed, 0, "Seed instead of the config's");
+DEFINE_double(size, 0, "mesh: size of elements, in the surface's unit");
+DEFINE_int32(order, 1, "mesh: order of elements, 1 or 2");
+DEFINE_string(format, "msh", "mesh: msh, inp, bdf, unv, vtk; or several, comma between");
+DEFINE_bool(volume, false, "mesh: tetrahedra inside a closed surface");
+DEFINE_double(shell_thickness, 0, "mesh: thickness of the shell section, for inp and bdf");
 DEFINE_bool(quiet, false, "No progress, no summary");
 
 namespace frond {
@@ -45,8 +53,9 @@ usage: frond COMMAND [ARGUMENTS] [--flags]
   report FOLDER   write the report of a study again
   check CONFIG    say whether a config is right, without running it
   list [NAME]     fits, solvers, problem sets, synthetic scans and formats; or one's options
-  synth KIND      make a synthetic scan with its truth: leaf
-  convert IN OUT  surfaces, clouds and meshes from one format to another
+  synth KIND      make a synthetic scan with its truth: leaf, cylinder, cone, sphere, torus
+  mesh RUN        finite elements on a run's surface, or inside it (by Gmsh, package gmsh): RUN/mesh.FORMAT
+  convert IN OUT  surfaces, curves, clouds and meshes from one format to another
 
   --set="a.b=1; c.d=[2, 3]"  config values (synth: its options); may be repeated
   --out=PATH                 where to write (runs/NAME)
@@ -54,17 +63,27 @@ usage: frond COMMAND [ARGUMENTS] [--flags]
   --threads=N                threads; 0: all cores. Results do not depend on it
   --seed=N                   seed, instead of the config's
   --quiet                    no progress, no summary
+
+  of mesh (--out is a folder):
+  --size=LENGTH              of elements, in the surface's unit; default 1/20 of its diagonal
+  --order=1|2                linear or quadratic elements (1)
+  --format=FORMAT[,FORMAT]   msh, inp, bdf, unv, vtk (msh)
+  --volume                   tetrahedra inside a closed surface
+  --shell-thickness=LENGTH   a shell section of this thickness, in inp and bdf
+
   --version, --help
 
 exit codes: 0 done; 2 usage or config; 3 input data or output; 4 the fit failed; 5 internal
 )";
+
+bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
 
 RunFlags Flags() {
   if (FLAGS_threads < 0 || FLAGS_threads > 1024) throw ConfigError("flag '--threads' must be in [0, 1024]");
   RunFlags flags;
   flags.set = FLAGS_set;
   if (FLAGS_seed > kMaxSeed) throw ConfigError("flag '--seed' must be in [0, 9223372036854775807]");
-  if (!gflags::GetCommandLineFlagInfoOrDie("seed").is_default) flags.seed = FLAGS_seed;
+  if (IsGiven("seed")) flags.seed = FLAGS_seed;
   const auto cores = static_cast<int>(std::thread::hardware_concurrency());
   flags.threads = FLAGS_threads > 0 ? FLAGS_threads : std::max(1, cores);
   return flags;
@@ -87,9 +106,17 @@ void PrintSummary(const std::filesystem::path& folder) {
       return;
     }
     std::cout << run.problem << ": " << run.input.points << " points, rmse " << run.metrics.Number("rmse")
-              << " " << run.unit << ", max " << run.metrics.Number("max") << " " << run.unit << ", area "
-              << run.metrics.Number("area") << " " << run.unit << "^2, " << run.metrics.Number("outliers")
-              << " outliers, " << run.solver.termination << ", " << run.seconds << " s\n";
+              << " " << run.unit << ", max " << run.metrics.Number("max") << " " << run.unit;
+    if (run.metrics.Find("area") != nullptr) {
+      std::cout << ", area " << run.metrics.Number("area") << " " << run.unit << "^2";
+    }
+    if (run.metrics.Find("outliers") != nullptr) {
+      std::cout << ", " << run.metrics.Number("outliers") << " outliers";
+    }
+    if (run.metrics.Find("length") != nullptr) {
+      std::cout << ", length " << run.metrics.Number("length") << " " << run.unit;
+    }
+    std::cout << ", " << run.solver.termination << ", " << run.seconds << " s\n";
   }
   std::cout << folder.string() << "\n";
 }
@@ -142,10 +169,55 @@ void List(const std::vector<std::string>& arguments) {
 }
 
 void Synth(const std::vector<std::string>& arguments) {
-  CheckCount(arguments, 1, 1, "synth KIND [--seed=N] [--set=…] [--out=DIR]; KIND: leaf");
+  CheckCount(arguments, 1, 1,
+             "synth KIND [--seed=N] [--set=…] [--out=DIR]; KIND: leaf, cylinder, cone, sphere, torus");
   const std::filesystem::path folder =
       Synthesise(arguments[1], FLAGS_set, Flags().seed.value_or(1), FLAGS_out, FLAGS_overwrite);
   if (!FLAGS_quiet) std::cout << folder.string() << "\n";
+}
+
+std::vector<std::string> SplitAtCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+void Mesh(const std::vector<std::string>& arguments) {
+  CheckCount(arguments, 1, 1,
+             "mesh RUN [--size=…] [--order=1|2] [--format=…] [--volume] [--shell-thickness=…] [--out=DIR] "
+             "[--overwrite]");
+  MeshRunOptions options{.order = FLAGS_order,
+                         .volume = FLAGS_volume,
+                         .formats = SplitAtCommas(FLAGS_format),
+                         .out = FLAGS_out,
+                         .overwrite = FLAGS_overwrite};
+  if (IsGiven("size")) options.size = FLAGS_size;
+  if (IsGiven("shell_thickness")) options.shell_thickness = FLAGS_shell_thickness;
+  const auto [folder, mesh] = MeshRun(arguments[1], options);
+  if (FLAGS_quiet) return;
+  std::cout << "mesh: " << mesh.nodes << " nodes, " << mesh.elements
+            << (mesh.volume ? " tetrahedra" : " triangles") << " of order " << mesh.order << ", size "
+            << mesh.size << " " << mesh.unit << ", SICN min " << mesh.min_sicn << " mean " << mesh.mean_sicn
+            << ", " << (mesh.volume ? "volume " : "area ") << mesh.measure << " " << mesh.unit
+            << (mesh.volume ? "^3" : "^2") << "\n";
+  for (const std::string& file : mesh.files) std::cout << (folder / file).string() << "\n";
+}
+
+// Flags of `mesh` mean nothing elsewhere, nor flags of runs to `mesh`.
+void RefuseForeignFlags(const std::string& command) {
+  for (const char* flag : {"set", "seed", "threads"}) {
+    if (command == "mesh" && IsGiven(flag)) {
+      throw ConfigError(std::string("flag '--") + flag + "' means nothing to frond mesh; leave it out");
+    }
+  }
+  for (const char* flag : {"size", "order", "format", "volume", "shell_thickness"}) {
+    if (command != "mesh" && IsGiven(flag)) {
+      std::string name = flag;
+      std::replace(name.begin(), name.end(), '_', '-');
+      throw ConfigError("flag '--" + name + "' is of frond mesh, not of frond " + command);
+    }
+  }
 }
 
 void ConvertFiles(const std::vector<std::string>& arguments) {
@@ -158,12 +230,15 @@ void Dispatch(const std::vector<std::string>& arguments) {
     const char* name;
     void (*run)(const std::vector<std::string>&);
   };
-  constexpr Command kCommands[] = {
-      {"fit", Fit},   {"study", Study}, {"report", Report},       {"check", Check},
-      {"list", List}, {"synth", Synth}, {"convert", ConvertFiles}};
+  constexpr Command kCommands[] = {{"fit", Fit},     {"study", Study},         {"report", Report},
+                                   {"check", Check}, {"list", List},           {"synth", Synth},
+                                   {"mesh", Mesh},   {"convert", ConvertFiles}};
   std::vector<std::string> names;
   for (const Command& command : kCommands) {
-    if (arguments[0] == command.name) return command.run(arguments);
+    if (arguments[0] == command.name) {
+      RefuseForeignFlags(command.name);
+      return command.run(arguments);
+    }
     names.emplace_back(command.name);
   }
   const std::string nearest = NearestWord(arguments[0], names);

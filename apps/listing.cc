@@ -9,6 +9,7 @@
 #include "experiments/fit_type.h"
 #include "experiments/study/study_sets.h"
 #include "experiments/synth.h"
+#include "io/gmsh.h"
 #include "io/mesh_file.h"
 #include "io/point_cloud_file.h"
 #include "io/surface_file.h"
@@ -44,7 +45,8 @@ void PrintFormats(std::ostream& out) {
   PrintNames("clouds", CloudExtensions(), out);
   PrintNames("surfaces", SurfaceExtensions(), out);
   PrintNames("meshes", MeshWriteExtensions(), out);
-  PrintNames("output.formats", OutputFormats(), out);
+  PrintNames("finite elements", FeMeshFormats(), out);
+  PrintNames("output.formats", SurfaceFormats(), out);
 }
 
 }  // namespace

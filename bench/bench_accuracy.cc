@@ -76,11 +76,11 @@ void RunSeed(std::uint64_t seed, int net, int points, int threads) {
   LeafScanOptions scan_options;
   scan_options.points = points;
   const LeafCase leaf = MakeLeafCase(seed, scan_options);
-  SheetFitOptions options;
+  SurfaceFitOptions options;
   options.control_points = {net, net};
   const Stopwatch stopwatch;
   const std::clock_t clock = std::clock();
-  const SheetFit fit = FitLeaf(leaf.points, options, threads);
+  const SurfaceFit fit = FitLeaf(leaf.points, options, threads);
   const double seconds = stopwatch.Seconds();
   const double processor_seconds = static_cast<double>(std::clock() - clock) / CLOCKS_PER_SEC;
   const TruthErrors ours = ErrorsAgainst(leaf.dense_clean, fit.surface.surface);

@@ -50,7 +50,7 @@ Result FitOnce(int points, int threads) {
   const double before = StatusBytes("VmRSS");
   const Stopwatch stopwatch;
   const std::clock_t clock = std::clock();
-  const SheetFit fit = FitLeaf(cloud, {}, threads);
+  const SurfaceFit fit = FitLeaf(cloud, {}, threads);
   return {stopwatch.Seconds(), static_cast<double>(std::clock() - clock) / CLOCKS_PER_SEC,
           StatusBytes("VmHWM") - before, fit.quality.rmse};
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "io/curve_file.h"
 #include "io/file_bytes.h"
 #include "io/mesh_file.h"
 #include "io/point_cloud_file.h"
@@ -39,11 +40,20 @@ void ConvertSurface(const std::filesystem::path& in, const std::filesystem::path
   }
 }
 
+void ConvertCurve(const std::filesystem::path& in, const std::filesystem::path& out) {
+  if (!In(CurveWriteExtensions(), Extension(out))) {
+    throw ConfigError(out.string() + ": a curve is written as " + Joined(CurveWriteExtensions()));
+  }
+  WriteCurve(out, ReadCurve(in));
+}
+
 }  // namespace
 
 void Convert(const std::filesystem::path& in, const std::filesystem::path& out) {
   const std::string from = Extension(in), to = Extension(out);
-  if (In(SurfaceExtensions(), from)) return ConvertSurface(in, out);
+  if (In(SurfaceExtensions(), from)) {
+    return IsCurveFile(in) ? ConvertCurve(in, out) : ConvertSurface(in, out);
+  }
   const std::vector<std::string> text = {"xyz", "asc", "csv", "txt"};
   const bool mesh_in = In(MeshReadExtensions(), from), cloud_in = In(CloudExtensions(), from);
   if (!mesh_in && !cloud_in) {

@@ -64,12 +64,11 @@ Budget ReadBudget(const ConfigFile& config) {
   return budget;
 }
 
-std::vector<std::string> ReadFormats(const ConfigFile& config) {
+std::vector<std::string> ReadFormats(const ConfigFile& config, const std::vector<std::string>& known) {
   config.CheckKeys("output", {"formats", "plot"});
   if (!config.Has("output.formats")) return {"json", "step", "ply"};
   std::vector<std::string> formats = config.Texts("output.formats");
   for (const std::string& format : formats) {
-    const auto& known = OutputFormats();
     if (std::find(known.begin(), known.end(), format) != known.end()) continue;
     std::string all;
     for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
@@ -101,12 +100,25 @@ void FillSolver(const Experiment& experiment, const FitOutcome& outcome, RunMetr
                      .seconds = report.seconds};
 }
 
-}  // namespace
-
-const std::vector<std::string>& OutputFormats() {
-  static const std::vector<std::string> formats = {"json", "step", "iges", "ply", "obj", "stl", "glb"};
-  return formats;
+// What reading the input did to it.
+void SetInputMetrics(const RunInput& input, MetricTable* metrics) {
+  const auto set = [&](const char* name, auto count) {
+    metrics->Set(name, static_cast<std::int64_t>(count));
+  };
+  set("dropped_not_finite", input.report.dropped_not_finite);
+  set("merged_duplicates", input.report.merged_duplicates);
+  if (input.repaired) {
+    set("repaired_welded_vertices", input.repaired->welded_vertices);
+    set("repaired_degenerate_faces", input.repaired->degenerate_faces);
+    set("repaired_duplicate_faces", input.repaired->duplicate_faces);
+    set("repaired_swapped_edges", input.repaired->swapped_edges);
+    set("repaired_split_vertices", input.repaired->split_vertices);
+    set("repaired_unreferenced_vertices", input.repaired->unreferenced_vertices);
+  }
+  if (input.outside_region) set("region_dropped", *input.outside_region);
 }
+
+}  // namespace
 
 ResolvedConfig Experiment::Resolved() const {
   ResolvedConfig resolved;
@@ -163,6 +175,9 @@ Experiment ReadExperiment(const ConfigFile& config, const RunFlags& flags) {
   if (!fit.takes_input && config.Has("input")) {
     config.Fail("input", "a fit of type '" + fit.name + "' takes no input: leave 'input' out");
   }
+  if (!fit.has_walls && config.Has("input.other_wall")) {
+    config.Fail("input.other_wall", "a fit of type '" + fit.name + "' has no walls: leave 'other_wall' out");
+  }
   if (!fit.takes_input && config.Has("output.formats")) {
     config.Fail("output.formats", "a fit of type '" + fit.name + "' has no surface: leave 'formats' out");
   }
@@ -180,7 +195,7 @@ Experiment ReadExperiment(const ConfigFile& config, const RunFlags& flags) {
           .solver_type = solver.name,
           .solver = std::move(solver_options),
           .budget = ReadBudget(config),
-          .formats = fit.takes_input ? ReadFormats(config) : std::vector<std::string>()};
+          .formats = fit.takes_input ? ReadFormats(config, fit.formats) : std::vector<std::string>()};
 }
 
 RunResult RunExperiment(const Experiment& experiment, int threads) {
@@ -204,9 +219,7 @@ RunResult RunExperiment(const Experiment& experiment, int threads) {
                    .sha256 = result.input.report.sha256,
                    .points = static_cast<std::int64_t>(result.input.cloud.points.size())};
   metrics.metrics = result.outcome.metrics;
-  metrics.metrics.Set("dropped_not_finite",
-                      static_cast<std::int64_t>(result.input.report.dropped_not_finite));
-  metrics.metrics.Set("merged_duplicates", static_cast<std::int64_t>(result.input.report.merged_duplicates));
+  SetInputMetrics(result.input, &metrics.metrics);
   metrics.metrics.Set("warnings", result.outcome.warnings);
   FillSolver(experiment, result.outcome, &metrics);
   for (const StageTime& stage : result.outcome.stages) metrics.stages.push_back({stage.name, stage.seconds});

@@ -34,9 +34,6 @@ struct Experiment {
   ResolvedConfig Resolved() const;  // repeats this run, defaults included
 };
 
-// The names `output.formats` may hold.
-const std::vector<std::string>& OutputFormats();
-
 // Throws ConfigError with file, line and column for anything that is wrong, unknown or missing. `sweep` is
 // not looked at.
 Experiment ReadExperiment(const ConfigFile& config, const RunFlags& flags);

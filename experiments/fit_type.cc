@@ -2,7 +2,9 @@
 #include "experiments/fit_type.h"
 
 #include "base/errors.h"
+#include "experiments/curve_experiment.h"
 #include "experiments/leaf_experiment.h"
+#include "experiments/skin_experiment.h"
 #include "experiments/standard_experiment.h"
 #include "experiments/surface_experiment.h"
 
@@ -10,11 +12,19 @@ namespace frond {
 
 const std::vector<FitType>& FitTypes() {
   static const std::vector<FitType> types = {
-      LeafFitType(),
-      StandardFitType(),
-      SurfaceFitType(),
+      CurveFitType(), LeafFitType(), SkinFitType(), StandardFitType(), SurfaceFitType(),
   };
   return types;
+}
+
+const std::vector<std::string>& SurfaceFormats() {
+  static const std::vector<std::string> formats = {"json", "step", "iges", "ply", "obj", "stl", "glb"};
+  return formats;
+}
+
+const std::vector<std::string>& CurveFormats() {
+  static const std::vector<std::string> formats = {"json", "step", "iges", "ply", "obj"};
+  return formats;
 }
 
 const FitType& FindFitType(const std::string& name) {

@@ -12,23 +12,37 @@
 #include "base/stage_clock.h"
 #include "experiments/run_input.h"
 #include "io/metrics_json.h"
+#include "models/nurbs_curve.h"
 #include "models/nurbs_surface.h"
+#include "models/tessellation.h"
 #include "solvers/solver.h"
 
 namespace frond {
 
+// A mesh over the fitted surface and its standard deviation along the normal, by vertex.
+struct UncertaintyMap {
+  SurfaceMesh mesh;
+  std::vector<double> standard_deviation;
+};
+
 // What one fit gives back, in the input's coordinates and unit.
 struct FitOutcome {
   std::optional<TrimmedSurface> surface;
+  std::optional<NurbsCurve> curve;
   MetricTable metrics;
   std::optional<SolverReport> report;    // none where no solver was needed
   std::vector<double> signed_distances;  // by input point
   std::vector<std::uint8_t> outlier;     // by input point
+  std::optional<UncertaintyMap> uncertainty;
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;
 };
 
 using OptionDefaults = std::vector<std::pair<std::string, OptionValue>>;
+
+// What `output.formats` may hold for a surface, and for a curve (ply and obj: a polyline).
+const std::vector<std::string>& SurfaceFormats();
+const std::vector<std::string>& CurveFormats();
 
 // A registered fit: its name in configs (`problem.type`), its options, and how to run it.
 struct FitType {
@@ -44,6 +58,8 @@ struct FitType {
   std::function<FitOutcome(const RunInput& input, const Options& problem, const Solver& solver,
                            const Budget& budget, const SolveContext& context)>
       run;
+  std::vector<std::string> formats = SurfaceFormats();
+  bool has_walls = false;   // makes use of `input.other_wall`
   bool takes_input = true;  // else `input` has to be left out
 };
 

@@ -7,19 +7,19 @@
 #include <string>
 
 #include "base/errors.h"
-#include "experiments/sheet_metrics.h"
+#include "experiments/surface_metrics.h"
 #include "io/length_unit.h"
 #include "models/nurbs_operations.h"
 #include "problems/leaf/leaf_options.h"
 #include "problems/leaf/leaf_paper_fit.h"
-#include "problems/surface/sheet_fit.h"
+#include "problems/surface/surface_fit.h"
 
 namespace frond {
 namespace {
 
 std::vector<OptionSpec> Specs() {
   std::vector<OptionSpec> specs = LeafSpecs();
-  for (OptionSpec& spec : SheetFitSpecs()) specs.push_back(std::move(spec));
+  for (OptionSpec& spec : SurfaceFitSpecs()) specs.push_back(std::move(spec));
   specs.push_back(
       {.name = "fit.start",
        .type = OptionType::kChoice,
@@ -82,7 +82,8 @@ void Check(const Options& problem) {
     (void)PaperOptions(problem, "mm");
     return;
   }
-  CheckSheetOptions(problem);
+  CheckSurfaceFitOptions(problem);
+  CheckTopologyOptions(SurfaceFitOptionsFrom(problem));
 }
 
 // Before the frame, whose own complaint about fewer than 10 points comes first.
@@ -120,11 +121,11 @@ FitOutcome RunPaper(const RunInput& input, const Options& problem, const Solver&
   StageClock clock;
   const InFrame local = ToFrame(input.cloud.points, fit.frame);
   const NurbsSurface local_surface = Transformed(fit.surface, local.to_input.inverse());
-  const SheetJudgement judgement =
-      JudgeSheet(local.points, local.stray, {local_surface, {}}, context.threads);
+  const FitJudgement judgement = JudgeFit(local.points, local.stray, {local_surface, {}}, context.threads);
   clock.End("quality");
   outcome.stages.push_back(clock.stages().front());
   SetQuality(judgement.quality, fit.surface, &outcome.metrics);
+  SetErrors(judgement.errors, &outcome.metrics);
   outcome.signed_distances = judgement.distances.signed_distance;
   outcome.outlier = local.stray;
   outcome.metrics.Set(
@@ -142,13 +143,15 @@ FitOutcome RunPaper(const RunInput& input, const Options& problem, const Solver&
   outcome.metrics.Set("midrib_offset", fit.midrib_offset);
   outcome.surface = TrimmedSurface{std::move(fit.surface), {}};
   SetTruth(input, context.threads, &outcome);
+  SetMeshComparison(input, context.threads, &outcome);
   return outcome;
 }
 
 FitOutcome RunDistance(const RunInput& input, const Options& problem, const Solver& solver,
                        const Budget& budget, const SolveContext& context) {
-  SheetFitOptions options = SheetFitOptionsFrom(problem);
+  SurfaceFitOptions options = SurfaceFitOptionsFrom(problem);
   options.tie_tip = problem.Flag("fit.tie_tip");
+  TakeMeshAsItIs(input, problem, &options);
   CheckLeafPointCount(input, options.control_points);
   FitOutcome outcome;
   StageClock clock;
@@ -169,11 +172,13 @@ FitOutcome RunDistance(const RunInput& input, const Options& problem, const Solv
     clock.End("paper_start");
   }
   outcome.stages = clock.stages();
-  SheetFit fit = FitSheet(local.points, local.stray, start, options, solver, budget, context);
-  SetSheetFit(fit, &outcome);
+  SurfaceFit fit = FitSurface(local.points, local.stray, start, options, solver, budget, context);
+  SetSurfaceFit(fit, &outcome);
+  SetUncertainty(fit.uncertainty, local.to_input, &outcome);
   outcome.surface =
       TrimmedSurface{Transformed(fit.surface.surface, local.to_input), std::move(fit.surface.trim)};
   SetTruth(input, context.threads, &outcome);
+  SetMeshComparison(input, context.threads, &outcome);
   return outcome;
 }
 
@@ -185,7 +190,7 @@ FitOutcome Run(const RunInput& input, const Options& problem, const Solver& solv
 
 OptionDefaults SolverDefaults(const Options& problem, const std::string& solver) {
   if (LeafMethodFrom(problem) == LeafMethod::kDistance) {
-    return SheetFitSolverDefaults(solver, SheetFitOptionsFrom(problem));
+    return SurfaceFitSolverDefaults(solver, SurfaceFitOptionsFrom(problem));
   }
   // A first step as long as weights may well move: Ceres's own radius of 1e4 is cut down for many iterations
   // first.

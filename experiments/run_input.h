@@ -10,39 +10,56 @@
 #include "base/options.h"
 #include "io/config_file.h"
 #include "io/point_cloud_file.h"
+#include "models/mesh_repair.h"
+#include "models/nurbs_surface.h"
+#include "models/region.h"
 
 namespace frond {
 
 // What the section `input` names, before anything is read.
 struct InputSource {
-  std::filesystem::path cloud;                  // or empty: synthetic
+  std::filesystem::path cloud;                  // or empty: a mesh or synthetic
+  std::filesystem::path mesh;                   // or empty
+  bool repair = false;                          // the mesh's defects, instead of refusing it
+  std::vector<HalfSpace> region;                // what is left of the input; all of it where empty
   std::filesystem::path truth;                  // clean points to judge against, or empty
   std::optional<std::uint64_t> synthetic_leaf;  // the seed of a leaf made in memory (`input.synthetic_leaf`)
   std::string unit = "mm";
-  std::size_t points = 0;  // thin to about this many by a voxel grid; 0: all
+  std::size_t points = 0;            // thin to about this many by a voxel grid; 0: all
+  std::size_t samples = 0;           // of a mesh: points drawn from its faces, beside its vertices
+  std::filesystem::path other_wall;  // the surface.json of another wall of the same object, or empty
 
-  bool none() const { return cloud.empty() && !synthetic_leaf; }  // of a fit that takes no input
+  bool none() const {
+    return cloud.empty() && mesh.empty() && !synthetic_leaf;
+  }  // of a fit that takes no input
 };
 
 // A run's data. `description` stands for the file in messages and metrics.
 struct RunInput {
   std::string description;
   std::string unit;
-  PointCloud cloud;
+  PointCloud cloud;  // of a mesh its vertices, in their order, and then samples of its faces
   CloudReport report;
-  std::vector<Eigen::Vector3d> truth;  // clean points, or empty
-  std::optional<double> true_area;     // of a synthetic leaf
+  std::optional<SurfaceMesh> mesh;
+  std::optional<MeshRepairCounts> repaired;   // where repair was asked for
+  std::optional<std::size_t> outside_region;  // points (of a mesh: vertices) dropped, where there is a region
+  std::vector<Eigen::Vector3d> truth;         // clean points, or empty
+  std::optional<double> true_area;            // of a synthetic leaf
+  std::optional<NurbsSurface> other_wall;
 };
 
-// The options of the section `input` (`cloud`, `truth`, `unit`, `points`, `synthetic_leaf`).
+// The options of the section `input` (`cloud`, `mesh`, `truth`, `unit`, `points`, …).
 std::vector<OptionSpec> InputSpecs();
 
-// Throws ConfigError unless exactly one of cloud and synthetic_leaf is named, with a known unit.
+// Throws ConfigError unless exactly one of cloud, mesh and synthetic_leaf is named, with a known unit, and
+// the other options suit it.
 InputSource ReadInputSource(const ConfigFile& config);
 void AddInput(const InputSource& source, ResolvedConfig* resolved);
 
-// Reads or makes the points; none where the source is none. `seed` places the voxel grid when they are
-// thinned. Throws InputError.
+// Reads or makes the points; none where the source is none. A mesh with duplicate vertices or faces, faces
+// without area, vertices without faces or edges of more than two faces is refused, unless repair is asked for
+// and leaves none. The region is cut out next, of the truth too, then points are thinned by a voxel grid that
+// `seed` places; it draws a mesh's samples too. Throws InputError.
 RunInput LoadInput(const InputSource& source, std::uint64_t seed);
 
 }  // namespace frond

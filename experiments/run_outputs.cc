@@ -4,6 +4,7 @@
 
 #include "experiments/experiment.h"
 #include "io/cad_file.h"
+#include "io/curve_file.h"
 #include "io/file_bytes.h"
 #include "io/mesh_file.h"
 #include "io/run_directory.h"
@@ -32,6 +33,15 @@ void WriteSurfaces(const Experiment& experiment, const RunResult& result, const 
   }
 }
 
+void WriteCurves(const Experiment& experiment, const RunResult& result, const RunDirectory& run) {
+  if (!result.outcome.curve) return;
+  const CurveDocument document{*result.outcome.curve, result.input.unit};
+  WriteCurve(run.File("curve.json"), document);  // whatever the formats: it alone holds all digits
+  for (const std::string& format : experiment.formats) {
+    if (format != "json") WriteCurve(run.File("curve." + (format == "iges" ? "igs" : format)), document);
+  }
+}
+
 void WriteOutliers(const RunResult& result, const std::filesystem::path& path) {
   const std::vector<std::string> columns = {"index", "x", "y", "z", "signed_distance"};
   std::vector<std::vector<MetricValue>> rows;
@@ -53,6 +63,15 @@ std::string LogText(const Experiment& experiment, const RunResult& result) {
         << result.input.report.dropped_not_finite << " not finite, " << result.input.report.merged_duplicates
         << " duplicates, " << result.input.cloud.points.size() << " points used\n";
   }
+  if (result.input.repaired) {
+    const MeshRepairCounts& counts = *result.input.repaired;
+    log << "repaired: " << counts.welded_vertices << " vertices welded, " << counts.split_vertices
+        << " split, " << counts.unreferenced_vertices << " without faces dropped; " << counts.degenerate_faces
+        << " degenerate and " << counts.duplicate_faces << " duplicate faces dropped, "
+        << counts.swapped_edges << " edges swapped\n";
+  }
+  if (result.input.mesh) log << "mesh: " << result.input.mesh->triangles.size() << " faces\n";
+  if (result.input.outside_region) log << "region: " << *result.input.outside_region << " points outside\n";
   for (const StageTime& stage : result.outcome.stages) {
     log << "stage " << stage.name << ": " << stage.seconds << " s\n";
   }
@@ -78,9 +97,13 @@ void WriteRun(const Experiment& experiment, const RunResult& result, const std::
   }
   WriteTrace(run.File("trace.csv"), trace);
   WriteSurfaces(experiment, result, run);
+  WriteCurves(experiment, result, run);
   if (!experiment.input.none()) {
     WritePointCloud(run.File("deviation.ply"), result.input.cloud, {result.outcome.signed_distances, {}});
     WriteOutliers(result, run.File("outliers.csv"));
+  }
+  if (const auto& map = result.outcome.uncertainty) {
+    WritePlyMesh(run.File("uncertainty.ply"), map->mesh, {"standard_deviation", map->standard_deviation});
   }
   WriteFileBytes(run.File("log.txt"), LogText(experiment, result));
   run.Commit();

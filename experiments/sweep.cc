@@ -196,7 +196,7 @@ std::optional<PlotRequest> ReadPlot(const ConfigFile& config,
 std::vector<ConfigFile::SweepAxis> ReadAxes(const ConfigFile& config) {
   std::vector<ConfigFile::SweepAxis> axes = config.Sweep();
   for (auto& axis : axes) {
-    if (axis.key != "input.cloud" && axis.key != "input.truth") continue;
+    if (axis.key != "input.cloud" && axis.key != "input.mesh" && axis.key != "input.truth") continue;
     const bool command_line = axis.place == "--set";
     const std::filesystem::path base = command_line ? std::filesystem::current_path()
                                                     : std::filesystem::absolute(config.name()).parent_path();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/synth.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/errors.h"
 #include "io/config_file.h"
@@ -9,9 +11,19 @@
 #include "io/point_cloud_file.h"
 #include "io/run_directory.h"
 #include "problems/leaf/leaf_options.h"
+#include "problems/surface/analytic_patch.h"
 
 namespace frond {
 namespace {
+
+nlohmann::ordered_json PoseJson(const Eigen::Isometry3d& pose) {
+  nlohmann::ordered_json rotation = nlohmann::ordered_json::array();
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    rotation.push_back({pose.linear()(row, 0), pose.linear()(row, 1), pose.linear()(row, 2)});
+  }
+  const Eigen::Vector3d shift = pose.translation();
+  return {{"rotation", rotation}, {"translation", {shift.x(), shift.y(), shift.z()}}};
+}
 
 std::string TruthJson(const LeafScan& scan, std::uint64_t seed, const std::string& unit,
                       const LeafShape& shape) {
@@ -27,12 +39,7 @@ std::string TruthJson(const LeafScan& scan, std::uint64_t seed, const std::strin
                        {"width", scan.measures.width},
                        {"perimeter", scan.measures.perimeter},
                        {"perimeter_smooth", scan.measures.perimeter_smooth}};
-  nlohmann::ordered_json rotation = nlohmann::ordered_json::array();
-  for (Eigen::Index row = 0; row < 3; ++row) {
-    rotation.push_back({scan.pose.linear()(row, 0), scan.pose.linear()(row, 1), scan.pose.linear()(row, 2)});
-  }
-  const Eigen::Vector3d shift = scan.pose.translation();
-  truth["pose_mm"] = {{"rotation", rotation}, {"translation", {shift.x(), shift.y(), shift.z()}}};
+  truth["pose_mm"] = PoseJson(scan.pose);
   truth["parameters"] = scan.values;
   return truth.dump(2) + "\n";
 }
@@ -46,14 +53,52 @@ void WriteLeaf(const Options& options, std::uint64_t seed, const RunDirectory& r
   WriteFileBytes(run.File("truth.json"), TruthJson(scan, seed, options.Text("unit"), shape));
 }
 
+void WriteAnalyticPatch(AnalyticShape shape, const Options& options, std::uint64_t seed,
+                        const RunDirectory& run) {
+  const AnalyticPatch patch = AnalyticPatchFrom(shape, options);
+  const AnalyticScan scan = ScanAnalyticPatch(patch, AnalyticScanOptionsFrom(options, seed));
+  WritePointCloud(run.File("scan.ply"), {scan.points});
+  WritePointCloud(run.File("clean.ply"), {scan.clean_points});
+  nlohmann::ordered_json truth;
+  truth["schema"] = "frond.patch_truth/1";
+  truth["shape"] = AnalyticShapeNames()[static_cast<std::size_t>(shape)];
+  truth["seed"] = seed;
+  truth["pose"] = PoseJson(scan.pose);
+  WriteFileBytes(run.File("truth.json"), truth.dump(2) + "\n");
+}
+
+// The shape of that name, or none.
+std::optional<AnalyticShape> ShapeNamed(const std::string& kind) {
+  const auto& names = AnalyticShapeNames();
+  const auto found = std::find(names.begin(), names.end(), kind);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<AnalyticShape>(found - names.begin());
+}
+
 }  // namespace
 
 const std::vector<SynthKind>& SynthKinds() {
-  static const std::vector<SynthKind> kinds = {{.name = "leaf",
-                                                .help = "A tea leaf of known shape, as a scanner sees it",
-                                                .options = SyntheticLeafSpecs()}};
+  static const std::vector<SynthKind> kinds = [] {
+    std::vector<SynthKind> all = {{.name = "leaf",
+                                   .help = "A tea leaf of known shape, as a scanner sees it",
+                                   .options = SyntheticLeafSpecs()}};
+    for (const std::string& name : AnalyticShapeNames()) {
+      all.push_back({.name = name,
+                     .help = "An open patch of a " + name + ", exact or with noise",
+                     .options = AnalyticPatchSpecs(*ShapeNamed(name))});
+    }
+    return all;
+  }();
   return kinds;
 }
+
+namespace {
+std::string KnownKinds() {
+  std::string names;
+  for (const SynthKind& kind : SynthKinds()) names += " " + kind.name;
+  return names;
+}
+}  // namespace
 
 std::filesystem::path Synthesise(const std::string& kind, const std::string& set, std::uint64_t seed,
                                  const std::filesystem::path& out, bool overwrite) {
@@ -61,7 +106,7 @@ std::filesystem::path Synthesise(const std::string& kind, const std::string& set
   for (const SynthKind& candidate : SynthKinds()) {
     if (candidate.name == kind) known = &candidate;
   }
-  if (known == nullptr) throw ConfigError("synth: unknown kind '" + kind + "'; known: leaf");
+  if (known == nullptr) throw ConfigError("synth: unknown kind '" + kind + "'; known:" + KnownKinds());
   ConfigFile config = ConfigFile::Parse("options: {}", "--set");
   if (!set.empty()) config.Override(set);
   Options options(known->options);
@@ -69,7 +114,11 @@ std::filesystem::path Synthesise(const std::string& kind, const std::string& set
 
   const std::filesystem::path target = out.empty() ? std::filesystem::path("runs") / ("synth_" + kind) : out;
   RunDirectory run(target, overwrite);
-  WriteLeaf(options, seed, run);
+  if (const auto shape = ShapeNamed(kind)) {
+    WriteAnalyticPatch(*shape, options, seed, run);
+  } else {
+    WriteLeaf(options, seed, run);
+  }
   ResolvedConfig resolved;
   resolved.Add("kind", kind);
   resolved.Add("seed", static_cast<std::int64_t>(seed));

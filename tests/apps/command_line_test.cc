@@ -80,7 +80,7 @@ TEST(CommandLine, List_NamesEverythingAndTheOptionsOfEach) {
   const ProgramResult all = RunFrond({"list"}, folder.path());
   EXPECT_EQ(all.exit_code, 0);
   for (const char* name :
-       {"leaf", "surface", "lm", "dogleg", "lbfgs", "pso", "pso_lm", "step", "iges", "pcd"}) {
+       {"leaf", "surface", "curve", "lm", "dogleg", "lbfgs", "pso", "pso_lm", "step", "iges", "pcd"}) {
     EXPECT_TRUE(Holds(all.out, name));
     EXPECT_EQ(all.err, "");
   }

@@ -5,9 +5,11 @@
 
 #include "base/errors.h"
 #include "experiments/synth.h"
+#include "io/curve_file.h"
 #include "io/mesh_file.h"
 #include "io/point_cloud_file.h"
 #include "io/surface_file.h"
+#include "models/knot_vector.h"
 #include "tests/experiments/leaf_files.h"
 
 namespace frond {
@@ -68,6 +70,28 @@ TEST_F(ConvertTest, MeshToMeshOrToItsVertices_ByTheTarget) {
   Convert(*folder_ / "run/surface.ply", *folder_ / "n.xyz");
   EXPECT_EQ(ReadPointCloud(*folder_ / "n.xyz").points.size(),
             ReadPointCloud(*folder_ / "run/surface.ply").points.size());
+}
+
+TEST(ConvertCurve, ThroughEveryFormat_KeepsItsShape) {
+  const TempFolder folder;
+  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {3, 1, 0}, {4, 5, 2}, {1, 7, 1}, {0, 4, 3}};
+  const CurveDocument first{NurbsCurve(UniformBasis(3, 5), points, {1, 2, 1, 0.5, 1}), "cm"};
+  WriteCurve(folder / "curve.json", first);
+  for (const char* file : {"a.json", "a.step", "a.stp", "a.igs", "a.iges"}) {
+    Convert(folder / "curve.json", folder / file);
+    Convert(folder / file, folder / "back.json");
+    const CurveDocument back = ReadCurve(folder / "back.json");
+    EXPECT_EQ(back.unit, "cm") << file;
+    for (int k = 0; k <= 50; ++k) {
+      EXPECT_LT((back.curve.Evaluate(k / 50.0) - first.curve.Evaluate(k / 50.0)).norm(), 1e-12 * 10) << file;
+    }
+  }
+  Convert(folder / "a.step", folder / "line.ply");
+  EXPECT_GE(ReadPointCloud(folder / "line.ply").points.size(), 32U);
+  Convert(folder / "curve.json", folder / "line.obj");
+  EXPECT_TRUE(Holds(FileText(folder / "line.obj"), "\nl 1 2 3 "));
+  EXPECT_TRUE(Holds(MessageOf<ConfigError>([&] { Convert(folder / "curve.json", folder / "a.stl"); }),
+                    "a curve is written as json, step"));
 }
 
 TEST_F(ConvertTest, PairsThatMakeNoSense_AreRefused) {

@@ -85,7 +85,7 @@ TEST(ReadExperiment, WhatIsMissingOrDoubled_IsSaid) {
   EXPECT_TRUE(Holds(Complaint(kHead), "'problem.type' is missing"));
   EXPECT_TRUE(Holds(Complaint("problem: {type: leaf}\n"), "no input"));
   EXPECT_TRUE(
-      Holds(Complaint("input: {cloud: a.ply, synthetic_leaf: 1}\nproblem: {type: leaf}\n"), "not both"));
+      Holds(Complaint("input: {cloud: a.ply, synthetic_leaf: 1}\nproblem: {type: leaf}\n"), "not several"));
   EXPECT_TRUE(Holds(Complaint(kHead + "problem: {type: leef}\n"),
                     "unknown problem type 'leef' (did you mean 'leaf'?)"));
   EXPECT_TRUE(

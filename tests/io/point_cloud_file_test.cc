@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ctime>
 #include <cstdint>
 #include <cstring>
+#include <ctime>
 
 #include "base/errors.h"
 #include "base/random.h"
