@@ -12,6 +12,7 @@
 #include "problems/curve/curve_knots.h"
 #include "problems/curve/curve_parameters.h"
 #include "problems/curve/curve_stages.h"
+#include "solvers/report_sum.h"
 
 namespace frond {
 namespace {
@@ -100,10 +101,7 @@ Choice ChooseControlPoints(const Points& points, const LocatedPoints& located, C
     errors.emplace_back(size, std::max(RootMeanSquareDistance(held_out, curve), kExact * extent));
     left.max_evaluations -= trial.report().evaluations;
     left.max_seconds -= trial.report().seconds;
-    choice.report.evaluations += trial.report().evaluations;
-    choice.report.residual_evaluations += trial.report().residual_evaluations;
-    choice.report.jacobian_evaluations += trial.report().jacobian_evaluations;
-    choice.report.seconds += trial.report().seconds;
+    AddCost(trial.report(), &choice.report);
   }
   if (errors.empty()) throw InputError("there are too few points for any number of control points");
   const auto least = std::min_element(errors.begin(), errors.end(),
@@ -157,10 +155,7 @@ CurveFit FitCurve(std::span<const Eigen::Vector3d> points, const CurveFitOptions
                .report = stages.report(),
                .stages = {},
                .warnings = {}};
-  fit.report.evaluations += trials.evaluations;
-  fit.report.residual_evaluations += trials.residual_evaluations;
-  fit.report.jacobian_evaluations += trials.jacobian_evaluations;
-  fit.report.seconds += trials.seconds;
+  AddCost(trials, &fit.report);
   const CurveSpans spans(curve);
   const CurveFootSearch search(spans);
   ParallelFor(ordered.size(), kPointChunk, context.threads, [&](std::size_t begin, std::size_t end) {

@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "problems/curve/parametric_start.h"
+#include "solvers/report_sum.h"
 
 namespace frond {
 namespace {
@@ -17,23 +18,6 @@ constexpr double kExact = 1e-9;           // RMS distance, of the extent
 constexpr double kSmoothFairness = 1e-8;  // of the curve whose bending energy is the measure
 constexpr double kProgress = 0.7;         // a stage that leaves more of the RMS distance is the last
 constexpr std::size_t kPointChunk = 1024;
-
-void Append(const SolverReport& stage, SolverReport* total) {
-  for (TracePoint point : stage.trace) {
-    point.evaluations += total->evaluations;
-    point.seconds += total->seconds;
-    total->trace.push_back(point);
-  }
-  total->x = stage.x;
-  total->objective = stage.objective;
-  total->termination = stage.termination;
-  total->message = stage.message;
-  total->evaluations += stage.evaluations;
-  total->residual_evaluations += stage.residual_evaluations;
-  total->jacobian_evaluations += stage.jacobian_evaluations;
-  total->iterations += stage.iterations;
-  total->seconds += stage.seconds;
-}
 
 double RootMeanSquare(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& parameters,
                       const NurbsCurve& curve) {
@@ -136,7 +120,8 @@ CurveStages::Result CurveStages::RunStage(const std::vector<Eigen::Vector3d>& po
   }
   const SolverReport stage = solver_.Solve(problem, left, context_);
   if (stage.termination == Termination::kFailed) throw FitError("the solver failed: " + stage.message);
-  Append(stage, &report_);
+  AppendStage(stage, &report_);
+  report_.x = stage.x;
   return {problem.CurveAt(stage.x), problem.Metrics(stage.x).at("rmse"), stage.objective};
 }
 

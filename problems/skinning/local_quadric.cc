@@ -21,10 +21,6 @@ Eigen::Vector3d LocalQuadric::At(double a, double b) const {
   return point + a * x + b * y + (c[0] * a + c[1] * b + c[2] * a * a + c[3] * a * b + c[4] * b * b) * n;
 }
 
-Eigen::Vector3d LocalQuadric::Normal() const {
-  return (n - coefficients[0] * x - coefficients[1] * y).normalized();
-}
-
 std::optional<LocalQuadric> FitLocalQuadric(std::span<const Eigen::Vector3d> points, const KdTree& tree,
                                             const Eigen::Vector3d& point) {
   std::array<KdTree::Neighbour, kNeighbours> found;

@@ -15,7 +15,6 @@ struct LocalQuadric {
   Eigen::Vector3d point, x, y, n;            // orthonormal axes, n across the surface
   Eigen::Matrix<double, 5, 1> coefficients;  // of a, b, a², ab, b² in f
   Eigen::Vector3d At(double a, double b) const;
-  Eigen::Vector3d Normal() const;  // at the point, unit
 };
 
 // From the 20 nearest points with weights that fall off over two spacings, `tree` over `points`. None where

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "problems/surface/surface_fit_stages.h"
+#include "solvers/report_sum.h"
 
 namespace frond {
 namespace {
@@ -60,10 +61,7 @@ NetChoice ChooseNet(const std::vector<Eigen::Vector3d>& points, const std::optio
     const NetTrial trial = TryNet(points, start, options, {nu, nv}, scan, solver, left, context);
     left.max_evaluations -= trial.report.evaluations;
     left.max_seconds -= trial.report.seconds;
-    choice.report.evaluations += trial.report.evaluations;
-    choice.report.residual_evaluations += trial.report.residual_evaluations;
-    choice.report.jacobian_evaluations += trial.report.jacobian_evaluations;
-    choice.report.seconds += trial.report.seconds;
+    AddCost(trial.report, &choice.report);
     return errors[steps] = trial.held_out_rmse;
   };
   Steps at = {0, 0};

@@ -10,6 +10,7 @@
 #include "problems/surface/scan_cloud.h"
 #include "problems/surface/sheet_boundary.h"
 #include "problems/surface/surface_fit_stages.h"
+#include "solvers/report_sum.h"
 
 namespace frond {
 namespace {
@@ -97,10 +98,7 @@ SurfaceFit FitSurface(std::span<const Eigen::Vector3d> points, const std::vector
                     .report = stages.report(),
                     .stages = {},
                     .warnings = {}};
-  result.report.evaluations += choice.evaluations;
-  result.report.residual_evaluations += choice.residual_evaluations;
-  result.report.jacobian_evaluations += choice.jacobian_evaluations;
-  result.report.seconds += choice.seconds;
+  AddCost(choice, &result.report);
   if (result.margin == MarginMode::kTrim) {
     std::vector<Eigen::Vector2d> feet;
     for (std::size_t i = 0; i < distances.feet.size(); ++i) {

@@ -15,6 +15,7 @@
 #include "problems/surface/sheet_boundary.h"
 #include "problems/surface/sheet_start.h"
 #include "problems/surface/spatial_order.h"
+#include "solvers/report_sum.h"
 #include "solvers/robust_loss.h"
 
 namespace frond {
@@ -37,22 +38,10 @@ std::vector<Stage> Schedule(std::size_t points, std::size_t subset, double fairn
   return stages;
 }
 
-// The sum of two stages' reports; objectives are brought to the later one's number of points.
+// Objectives so far are brought to the later stage's number of points.
 void Append(const SolverReport& stage, double objective_scale, SolverReport* total) {
   for (TracePoint& point : total->trace) point.best_objective *= objective_scale;
-  for (TracePoint point : stage.trace) {
-    point.evaluations += total->evaluations;
-    point.seconds += total->seconds;
-    total->trace.push_back(point);
-  }
-  total->objective = stage.objective;
-  total->termination = stage.termination;
-  total->message = stage.message;
-  total->evaluations += stage.evaluations;
-  total->residual_evaluations += stage.residual_evaluations;
-  total->jacobian_evaluations += stage.jacobian_evaluations;
-  total->iterations += stage.iterations;
-  total->seconds += stage.seconds;
+  AppendStage(stage, total);
 }
 
 double RobustDeviation(const std::vector<double>& signed_distances) {
