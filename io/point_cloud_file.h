@@ -33,10 +33,12 @@ PointCloud ReadPointCloud(const std::filesystem::path& path, CloudReport* report
 struct CloudAttributes {
   std::vector<double> deviation;                     // signed distance, in the cloud's unit
   std::vector<std::array<std::uint8_t, 3>> colours;  // red, green, blue
+  std::vector<Eigen::Vector3d> normals = {};         // unit; written as floats nx, ny, nz
+  std::vector<double> standard_deviation = {};       // in the cloud's unit; written as a float
 };
 
-// By extension: .ply (binary, double), .xyz, .asc, .txt (blanks between) or .csv (commas, with a header
-// line). Text is the shortest that reads back to the same bits. Throws InputError.
+// By extension: .ply (binary, coordinates in double), .xyz, .asc, .txt (blanks between) or .csv (commas, with
+// a header line). Text is the shortest that reads back to the same bits. Throws InputError.
 void WritePointCloud(const std::filesystem::path& path, const PointCloud& cloud,
                      const CloudAttributes& attributes = {});
 
