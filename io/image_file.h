@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 
 #include "models/raster.h"
 
@@ -19,7 +18,8 @@ Image ReadImage(const std::filesystem::path& path);
 // Red, green and blue; a grey image has all three alike. 16 bits are rounded to 8.
 ColourImage ReadColourImage(const std::filesystem::path& path);
 
-// 1 where the image is not black, at half of white or more.
+// 1 where the image is at least half as bright as its brightest pixel, so that 0 and 1 will do as well as 0
+// and 255. All 0 where it is black.
 Mask ReadMask(const std::filesystem::path& path);
 
 // The first channel's values as the file holds them, whatever its depth: levels of a disparity image, floats

@@ -65,14 +65,15 @@ void MergeDuplicates(std::vector<Eigen::Vector3d>* points) {
 }
 
 void CheckSizes(const PointCloud& cloud, const CloudAttributes& attributes) {
-  const std::size_t count = cloud.points.size();
-  if ((!attributes.deviation.empty() && attributes.deviation.size() != count) ||
-      (!attributes.colours.empty() && attributes.colours.size() != count)) {
+  const auto fits = [&](std::size_t size) { return size == 0 || size == cloud.points.size(); };
+  if (!fits(attributes.deviation.size()) || !fits(attributes.colours.size()) ||
+      !fits(attributes.normals.size()) || !fits(attributes.standard_deviation.size())) {
     throw std::invalid_argument("a cloud's attributes are not as many as its points");
   }
 }
 
-void AppendBytes(double value, std::string* bytes) {
+template <typename Value>
+void AppendBytes(Value value, std::string* bytes) {
   static_assert(std::endian::native == std::endian::little);
   bytes->append(reinterpret_cast<const char*>(&value), sizeof(value));
 }
@@ -82,12 +83,20 @@ std::string FormatPly(const PointCloud& cloud, const CloudAttributes& attributes
                       std::to_string(cloud.points.size()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
   if (!attributes.deviation.empty()) bytes += "property double deviation\n";
+  if (!attributes.normals.empty()) bytes += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (!attributes.standard_deviation.empty()) bytes += "property float standard_deviation\n";
   if (!attributes.colours.empty()) bytes += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   bytes += "end_header\n";
-  bytes.reserve(bytes.size() + cloud.points.size() * 35);
+  bytes.reserve(bytes.size() + cloud.points.size() * 51);  // with all of them
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) AppendBytes(cloud.points[i][axis], &bytes);
+    for (const double value : cloud.points[i]) AppendBytes(value, &bytes);
     if (!attributes.deviation.empty()) AppendBytes(attributes.deviation[i], &bytes);
+    if (!attributes.normals.empty()) {
+      for (const double value : attributes.normals[i]) AppendBytes(static_cast<float>(value), &bytes);
+    }
+    if (!attributes.standard_deviation.empty()) {
+      AppendBytes(static_cast<float>(attributes.standard_deviation[i]), &bytes);
+    }
     if (attributes.colours.empty()) continue;
     for (const std::uint8_t channel : attributes.colours[i]) bytes += static_cast<char>(channel);
   }
@@ -99,17 +108,23 @@ std::string FormatText(const PointCloud& cloud, const CloudAttributes& attribute
   std::string text;
   if (csv) {
     text = std::string("x,y,z") + (attributes.deviation.empty() ? "" : ",deviation") +
+           (attributes.normals.empty() ? "" : ",nx,ny,nz") +
+           (attributes.standard_deviation.empty() ? "" : ",standard_deviation") +
            (attributes.colours.empty() ? "" : ",red,green,blue") + "\n";
   }
+  const auto append = [&](double value) {
+    text += separator;
+    AppendNumber(value, &text);
+  };
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (axis > 0) text += separator;
-      AppendNumber(cloud.points[i][axis], &text);
+    AppendNumber(cloud.points[i].x(), &text);
+    append(cloud.points[i].y());
+    append(cloud.points[i].z());
+    if (!attributes.deviation.empty()) append(attributes.deviation[i]);
+    if (!attributes.normals.empty()) {
+      for (const double value : attributes.normals[i]) append(value);
     }
-    if (!attributes.deviation.empty()) {
-      text += separator;
-      AppendNumber(attributes.deviation[i], &text);
-    }
+    if (!attributes.standard_deviation.empty()) append(attributes.standard_deviation[i]);
     if (!attributes.colours.empty()) {
       for (const std::uint8_t channel : attributes.colours[i]) text += separator + std::to_string(channel);
     }

@@ -5,6 +5,7 @@
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -111,6 +112,8 @@ TEST(PlyFile, PclReadsWhatWeWrite) {
     cloud.points.emplace_back(random.Normal(), random.Normal(), random.Normal());
     attributes.deviation.push_back(random.Normal());
     attributes.colours.push_back({10, 20, 30});
+    attributes.normals.push_back(Eigen::Vector3d(random.Normal(), random.Normal(), 1).normalized());
+    attributes.standard_deviation.push_back(0.01 * k);
   }
   WritePointCloud(folder / "a.ply", cloud, attributes);
   pcl::PCLPointCloud2 read;
@@ -127,6 +130,25 @@ TEST(PlyFile, PclReadsWhatWeWrite) {
       EXPECT_EQ(value, cloud.points[k][static_cast<Eigen::Index>(axis)]);
     }
   }
+  // What PCL makes points of: normals and colours.
+  pcl::PointCloud<pcl::PointNormal> normals;
+  pcl::PointCloud<pcl::RGB> colours;
+  pcl::fromPCLPointCloud2(read, normals);
+  pcl::fromPCLPointCloud2(read, colours);
+  const auto sigma = std::find_if(read.fields.begin(), read.fields.end(),
+                                  [](const auto& field) { return field.name == "standard_deviation"; });
+  ASSERT_NE(sigma, read.fields.end());
+  ASSERT_EQ(sigma->datatype, pcl::PCLPointField::FLOAT32);
+  for (std::size_t k = 0; k < 100; ++k) {
+    EXPECT_EQ(normals[k].normal_x, static_cast<float>(attributes.normals[k].x()));
+    EXPECT_EQ(normals[k].normal_z, static_cast<float>(attributes.normals[k].z()));
+    EXPECT_EQ(colours[k].r, 10);
+    EXPECT_EQ(colours[k].b, 30);
+    float value = 0;
+    std::memcpy(&value, read.data.data() + k * read.point_step + sigma->offset, sizeof(value));
+    EXPECT_EQ(value, static_cast<float>(attributes.standard_deviation[k]));
+  }
+  EXPECT_EQ(ReadPointCloud(folder / "a.ply").points, cloud.points);
 }
 
 TEST(PlyFile, WeReadWhatPclWrites) {
