@@ -160,7 +160,7 @@ void RefuseRepeatedAngles(const ViewList& views, const ListReader& list) {
 
 std::string ViewList::Place(std::size_t view) const { return PlaceOf(file, views[view].line); }
 
-std::string BoardPairList::Place(std::size_t pair) const { return PlaceOf(file, pairs[pair].line); }
+std::string ImagePairList::Place(std::size_t pair) const { return PlaceOf(file, pairs[pair].line); }
 
 ViewList ReadViewList(const std::filesystem::path& path) {
   const ListReader list(path, {"image", "angle"}, {"mask"});
@@ -185,9 +185,9 @@ ViewList ReadBoardViews(const std::filesystem::path& path) {
   return views;
 }
 
-BoardPairList ReadBoardPairs(const std::filesystem::path& path) {
+ImagePairList ReadImagePairs(const std::filesystem::path& path) {
   const ListReader list(path, {"left", "right"}, {});
-  BoardPairList pairs{path, {}};
+  ImagePairList pairs{path, {}};
   for (std::size_t row = 0; row < list.size(); ++row) {
     pairs.pairs.push_back({list.File(row, "left", true), list.File(row, "right", true), list.Line(row)});
   }

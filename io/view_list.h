@@ -37,20 +37,20 @@ ViewList ReadViewList(const std::filesystem::path& path);
 ViewList ReadBoardViews(const std::filesystem::path& path);
 
 // Two photographs of the board by the cameras of a stereo pair, at once.
-struct BoardPair {
+struct ImagePair {
   std::filesystem::path left;
   std::filesystem::path right;
   std::size_t line = 0;
 };
 
-struct BoardPairList {
+struct ImagePairList {
   std::filesystem::path file;
-  std::vector<BoardPair> pairs;
+  std::vector<ImagePair> pairs;
 
   std::string Place(std::size_t pair) const;
 };
 
 // "left,right". Throws InputError.
-BoardPairList ReadBoardPairs(const std::filesystem::path& path);
+ImagePairList ReadImagePairs(const std::filesystem::path& path);
 
 }  // namespace frond

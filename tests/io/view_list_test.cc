@@ -49,9 +49,9 @@ TEST_F(ViewListFile, BoardViews_MayLackTheirAngles) {
   EXPECT_FALSE(ReadBoardViews(folder_ / "free.csv").views[0].angle);
 }
 
-TEST_F(ViewListFile, BoardPairs_AreReadInOrder) {
+TEST_F(ViewListFile, ImagePairs_AreReadInOrder) {
   folder_.Write("pairs.csv", "left,right\na.png,b.png\nb.png,a.png\n");
-  const BoardPairList list = ReadBoardPairs(folder_ / "pairs.csv");
+  const ImagePairList list = ReadImagePairs(folder_ / "pairs.csv");
   ASSERT_EQ(list.pairs.size(), 2U);
   EXPECT_EQ(list.pairs[1].left, folder_ / "b.png");
   EXPECT_EQ(list.pairs[1].right, folder_ / "a.png");
@@ -74,9 +74,9 @@ TEST_F(ViewListFile, Mistakes_AreToldWithFileAndLine) {
       Holds(ErrorOf("image,angle\na.png,10\nb.png,370\n"), "views.csv:3: the same angle as in line 2"));
   EXPECT_TRUE(Holds(ErrorOf("image,angle\na.png,x\n", true), "views.csv:2: the angle 'x'"));
   folder_.Write("pairs.csv", "left,right\na.png,\n");
-  EXPECT_TRUE(Holds(MessageOf<InputError>([&] { ReadBoardPairs(folder_ / "pairs.csv"); }),
+  EXPECT_TRUE(Holds(MessageOf<InputError>([&] { ReadImagePairs(folder_ / "pairs.csv"); }),
                     "pairs.csv:2: names no file under 'right'"));
-  EXPECT_TRUE(Holds(MessageOf<InputError>([&] { ReadBoardPairs(folder_ / "none.csv"); }), "no such file"));
+  EXPECT_TRUE(Holds(MessageOf<InputError>([&] { ReadImagePairs(folder_ / "none.csv"); }), "no such file"));
 }
 
 }  // namespace
