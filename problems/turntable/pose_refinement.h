@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "problems/turntable/view_cloud.h"
+#include "problems/turntable/scan_point.h"
 
 namespace frond {
 

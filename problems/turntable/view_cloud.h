@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
-#include <cstdint>
 #include <vector>
 
-#include "models/raster.h"
-#include "models/rectification.h"
 #include "models/turntable_rig.h"
 #include "problems/stereo/stereo_matcher.h"
+#include "problems/turntable/scan_point.h"
 #include "problems/turntable/view_images.h"
 
 namespace frond {
-
-// A matched window in space, in the disk's frame and unit.
-struct ScanPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();     // unit, to the camera's side
-  Eigen::Vector3d to_camera = Eigen::Vector3d::UnitX();  // unit: the ray's direction back to the left camera
-  double sigma = 0;                                      // standard deviation along the ray
-  std::array<std::uint8_t, 3> colour{128, 128, 128};
-  int view = 0;       // number of the pair
-  double cosine = 1;  // of the angle between normal and ray
-
-  // Along the normal.
-  double NormalSigma() const { return sigma * cosine; }
-};
 
 struct ViewCloudOptions {
   double least_cosine = 0.15;         // more slanting windows are left out

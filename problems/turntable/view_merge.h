@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "problems/turntable/view_cloud.h"
+#include "problems/turntable/scan_point.h"
 
 namespace frond {
 
