@@ -66,6 +66,7 @@ Budget ReadBudget(const ConfigFile& config) {
 
 std::vector<std::string> ReadFormats(const ConfigFile& config, const std::vector<std::string>& known) {
   config.CheckKeys("output", {"formats", "plot"});
+  if (known.empty()) return {};
   if (!config.Has("output.formats")) return {"json", "step", "ply"};
   std::vector<std::string> formats = config.Texts("output.formats");
   for (const std::string& format : formats) {
@@ -105,6 +106,7 @@ void SetInputMetrics(const RunInput& input, MetricTable* metrics) {
   const auto set = [&](const char* name, auto count) {
     metrics->Set(name, static_cast<std::int64_t>(count));
   };
+  if (input.stereo || input.turntable) return;
   set("dropped_not_finite", input.report.dropped_not_finite);
   set("merged_duplicates", input.report.merged_duplicates);
   if (input.repaired) {
@@ -124,9 +126,10 @@ ResolvedConfig Experiment::Resolved() const {
   ResolvedConfig resolved;
   resolved.Add("name", name);
   resolved.Add("seed", static_cast<std::int64_t>(seed));
-  if (!input.none()) AddInput(input, &resolved);
+  AddInput(input, &resolved);
   resolved.Add("problem.type", problem_type);
-  if (FindFitType(problem_type).takes_input) {
+  const FitType& fit = FindFitType(problem_type);
+  if (fit.input != InputKind::kNone) {
     resolved.AddSection("problem", problem);
   } else {  // of the sets, only what is set: the others' options would stand there without effect
     for (const OptionSpec& spec : problem.specs()) {
@@ -143,7 +146,7 @@ ResolvedConfig Experiment::Resolved() const {
     resolved.Add("budget.target", budget.target_objective);
   if (budget.stall_evaluations != none.stall_evaluations)
     resolved.Add("budget.stall", budget.stall_evaluations);
-  if (!input.none()) resolved.Add("output.formats", formats);
+  if (!fit.formats.empty()) resolved.Add("output.formats", formats);
   return resolved;
 }
 
@@ -172,14 +175,20 @@ Experiment ReadExperiment(const ConfigFile& config, const RunFlags& flags) {
   } catch (const ConfigError& error) {
     config.Fail("solver", error.what());
   }
-  if (!fit.takes_input && config.Has("input")) {
+  if (fit.input == InputKind::kNone && config.Has("input")) {
     config.Fail("input", "a fit of type '" + fit.name + "' takes no input: leave 'input' out");
   }
-  if (!fit.has_walls && config.Has("input.other_wall")) {
+  if (fit.input == InputKind::kScan && !fit.has_walls && config.Has("input.other_wall")) {
     config.Fail("input.other_wall", "a fit of type '" + fit.name + "' has no walls: leave 'other_wall' out");
   }
-  if (!fit.takes_input && config.Has("output.formats")) {
+  if (fit.formats.empty() && config.Has("output.formats")) {
     config.Fail("output.formats", "a fit of type '" + fit.name + "' has no surface: leave 'formats' out");
+  }
+  InputSource input = ReadInputSource(config, fit.input);
+  try {
+    if (fit.check_input) fit.check_input(input, problem);
+  } catch (const ConfigError& error) {
+    config.Fail("problem", error.what());
   }
   const std::int64_t seed = config.Integer("seed", 0);
   if (seed < 0) config.Fail("seed", "'seed' must not be negative");
@@ -189,13 +198,13 @@ Experiment ReadExperiment(const ConfigFile& config, const RunFlags& flags) {
   }
   return {.name = std::move(name),
           .seed = flags.seed.value_or(static_cast<std::uint64_t>(seed)),
-          .input = fit.takes_input ? ReadInputSource(config) : InputSource(),
+          .input = std::move(input),
           .problem_type = fit.name,
           .problem = std::move(problem),
           .solver_type = solver.name,
           .solver = std::move(solver_options),
           .budget = ReadBudget(config),
-          .formats = fit.takes_input ? ReadFormats(config, fit.formats) : std::vector<std::string>()};
+          .formats = ReadFormats(config, fit.formats)};
 }
 
 RunResult RunExperiment(const Experiment& experiment, int threads) {
@@ -208,6 +217,7 @@ RunResult RunExperiment(const Experiment& experiment, int threads) {
                          .run(result.input, experiment.problem, *solver, experiment.budget,
                               {.threads = threads, .seed = experiment.seed});
   } catch (const InputError& error) {
+    if (experiment.input.kind != InputKind::kScan) throw;  // of photographs each message names its own file
     throw InputError(result.input.description + ": " + error.what());
   } catch (const FitError& error) {
     throw FitError(result.input.description + ": " + error.what());
@@ -217,7 +227,7 @@ RunResult RunExperiment(const Experiment& experiment, int threads) {
   metrics.unit = result.input.unit;
   metrics.input = {.path = result.input.description,
                    .sha256 = result.input.report.sha256,
-                   .points = static_cast<std::int64_t>(result.input.cloud.points.size())};
+                   .points = static_cast<std::int64_t>(result.Cloud().points.size())};
   metrics.metrics = result.outcome.metrics;
   SetInputMetrics(result.input, &metrics.metrics);
   metrics.metrics.Set("warnings", result.outcome.warnings);

@@ -42,13 +42,16 @@ struct RunResult {
   RunInput input;
   FitOutcome outcome;
   RunMetrics metrics;
+
+  // The points that the fit is of: the input's, or those made of its photographs.
+  const PointCloud& Cloud() const { return outcome.cloud ? *outcome.cloud : input.cloud; }
 };
 
 // Reads the input and fits. Throws InputError and FitError, with the input's name in front.
 RunResult RunExperiment(const Experiment& experiment, int threads);
 
 // Writes the run directory of a result: config.yaml, metrics.json, trace.csv, the surface in the formats
-// asked for, deviation.ply, outliers.csv, log.txt. All or nothing (RunDirectory).
+// asked for, deviation.ply, outliers.csv, the fit's own files, log.txt. All or nothing (RunDirectory).
 void WriteRun(const Experiment& experiment, const RunResult& result, const std::filesystem::path& target,
               bool overwrite);
 

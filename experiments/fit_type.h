@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -25,17 +26,25 @@ struct UncertaintyMap {
   std::vector<double> standard_deviation;
 };
 
+// A file of one kind of fit, beside those that all runs have.
+struct RunFile {
+  std::string name;  // in the run directory
+  std::function<void(const std::filesystem::path& path)> write;
+};
+
 // What one fit gives back, in the input's coordinates and unit.
 struct FitOutcome {
   std::optional<TrimmedSurface> surface;
   std::optional<NurbsCurve> curve;
   MetricTable metrics;
   std::optional<SolverReport> report;    // none where no solver was needed
-  std::vector<double> signed_distances;  // by input point
-  std::vector<std::uint8_t> outlier;     // by input point
+  std::optional<PointCloud> cloud = {};  // made of photographs: it stands for the input's
+  std::vector<double> signed_distances;  // by input point; may be empty where there is no surface
+  std::vector<std::uint8_t> outlier;     // likewise
   std::optional<UncertaintyMap> uncertainty;
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;
+  std::vector<RunFile> files = {};
 };
 
 using OptionDefaults = std::vector<std::pair<std::string, OptionValue>>;
@@ -55,12 +64,14 @@ struct FitType {
   std::function<OptionDefaults(const Options& problem, const std::string& solver)> solver_defaults;
   // Checks what single options cannot tell; throws ConfigError.
   std::function<void(const Options& problem)> check;
+  // Checks what hangs on the files that are named too; throws ConfigError. May be empty.
+  std::function<void(const InputSource& input, const Options& problem)> check_input = {};
   std::function<FitOutcome(const RunInput& input, const Options& problem, const Solver& solver,
                            const Budget& budget, const SolveContext& context)>
       run;
-  std::vector<std::string> formats = SurfaceFormats();
-  bool has_walls = false;   // makes use of `input.other_wall`
-  bool takes_input = true;  // else `input` has to be left out
+  std::vector<std::string> formats = SurfaceFormats();  // of its result; empty: neither surface nor curve
+  InputKind input = InputKind::kScan;
+  bool has_walls = false;  // makes use of `input.other_wall`
 };
 
 // All fits, sorted by name. A new one is one file and one line in fit_type.cc.

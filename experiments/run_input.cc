@@ -12,8 +12,9 @@
 #include "problems/surface/voxel_grid.h"
 
 namespace frond {
+namespace {
 
-std::vector<OptionSpec> InputSpecs() {
+std::vector<OptionSpec> ScanInputSpecs() {
   return {
       {.name = "cloud",
        .type = OptionType::kText,
@@ -66,8 +67,8 @@ std::vector<OptionSpec> InputSpecs() {
        .minimum = 0}};
 }
 
-InputSource ReadInputSource(const ConfigFile& config) {
-  Options options(InputSpecs());
+InputSource ReadScanSource(const ConfigFile& config) {
+  Options options(ScanInputSpecs());
   config.ReadSection("input", &options);
   const bool cloud = config.Has("input.cloud"), synthetic = config.Has("input.synthetic_leaf");
   const bool mesh = config.Has("input.mesh");
@@ -101,7 +102,7 @@ InputSource ReadInputSource(const ConfigFile& config) {
   return source;
 }
 
-void AddInput(const InputSource& source, ResolvedConfig* resolved) {
+void AddScan(const InputSource& source, ResolvedConfig* resolved) {
   if (source.synthetic_leaf) {
     resolved->Add("input.synthetic_leaf", static_cast<std::int64_t>(*source.synthetic_leaf));
   } else if (!source.mesh.empty()) {
@@ -121,8 +122,6 @@ void AddInput(const InputSource& source, ResolvedConfig* resolved) {
   resolved->Add("input.unit", source.unit);
   if (source.points > 0) resolved->Add("input.points", static_cast<std::int64_t>(source.points));
 }
-
-namespace {
 
 [[noreturn]] void FailEdges(const std::string& file, const MeshTopology& topology, bool repaired) {
   throw InputError(
@@ -166,16 +165,9 @@ void CutRegion(std::span<const HalfSpace> region, RunInput* input) {
   input->truth = PointsInside(region, input->truth);
 }
 
-}  // namespace
-
-RunInput LoadInput(const InputSource& source, std::uint64_t seed) {
+RunInput LoadScan(const InputSource& source, std::uint64_t seed) {
   RunInput input;
   input.unit = source.unit;
-  if (source.none()) {
-    input.description = "no input";
-    input.unit = "none";
-    return input;
-  }
   if (source.synthetic_leaf) {
     const std::uint64_t leaf = *source.synthetic_leaf;
     LeafScanOptions options;
@@ -219,6 +211,56 @@ RunInput LoadInput(const InputSource& source, std::uint64_t seed) {
     input.cloud.points = DownsampleByVoxelGrid(input.cloud.points, source.points, seed);
   }
   return input;
+}
+
+RunInput LoadPhotographs(const InputSource& source) {
+  const PhotographSource& photographs = source.photographs;
+  RunInput input;
+  input.report.format = "photographs";
+  input.report.sha256 = PhotographDigest(photographs);
+  if (source.kind == InputKind::kStereo) {
+    input.description = (photographs.left.empty() ? photographs.boards : photographs.left).string();
+    input.stereo = LoadStereo(photographs);
+    input.unit = input.stereo->unit;
+  } else {
+    input.description = (photographs.views.empty() ? photographs.board : photographs.views).string();
+    input.turntable = LoadTurntable(photographs);
+    input.unit = input.turntable->unit;
+    input.truth = input.turntable->truth;
+  }
+  return input;
+}
+
+}  // namespace
+
+std::vector<OptionSpec> InputSpecs(InputKind kind) {
+  if (kind == InputKind::kNone) return {};
+  if (kind == InputKind::kStereo) return StereoInputSpecs();
+  return kind == InputKind::kTurntable ? TurntableInputSpecs() : ScanInputSpecs();
+}
+
+InputSource ReadInputSource(const ConfigFile& config, InputKind kind) {
+  InputSource source;
+  if (kind == InputKind::kScan) source = ReadScanSource(config);
+  if (kind == InputKind::kStereo) source.photographs = ReadStereoSource(config);
+  if (kind == InputKind::kTurntable) source.photographs = ReadTurntableSource(config);
+  source.kind = kind;
+  return source;
+}
+
+void AddInput(const InputSource& source, ResolvedConfig* resolved) {
+  if (source.kind == InputKind::kNone) return;
+  source.kind == InputKind::kScan ? AddScan(source, resolved) : AddPhotographs(source.photographs, resolved);
+}
+
+RunInput LoadInput(const InputSource& source, std::uint64_t seed) {
+  if (source.kind == InputKind::kNone) {
+    RunInput none;
+    none.description = "no input";
+    none.unit = "none";
+    return none;
+  }
+  return source.kind == InputKind::kScan ? LoadScan(source, seed) : LoadPhotographs(source);
 }
 
 }  // namespace frond

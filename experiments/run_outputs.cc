@@ -47,7 +47,7 @@ void WriteOutliers(const RunResult& result, const std::filesystem::path& path) {
   std::vector<std::vector<MetricValue>> rows;
   for (std::size_t i = 0; i < result.outcome.outlier.size(); ++i) {
     if (!result.outcome.outlier[i]) continue;
-    const Eigen::Vector3d& point = result.input.cloud.points[i];
+    const Eigen::Vector3d& point = result.Cloud().points[i];
     rows.push_back(
         {static_cast<std::int64_t>(i), point.x(), point.y(), point.z(), result.outcome.signed_distances[i]});
   }
@@ -58,11 +58,13 @@ std::string LogText(const Experiment& experiment, const RunResult& result) {
   std::ostringstream log;
   log << "run " << experiment.name << ": " << experiment.problem_type << " by " << result.metrics.solver.name
       << "\n";
-  if (!experiment.input.none()) {
-    log << "input " << result.input.description << ": " << result.input.report.rows << " rows, "
-        << result.input.report.dropped_not_finite << " not finite, " << result.input.report.merged_duplicates
-        << " duplicates, " << result.input.cloud.points.size() << " points used\n";
+  if (experiment.input.kind != InputKind::kNone) log << "input " << result.input.description;
+  if (experiment.input.kind == InputKind::kScan) {
+    log << ": " << result.input.report.rows << " rows, " << result.input.report.dropped_not_finite
+        << " not finite, " << result.input.report.merged_duplicates << " duplicates, "
+        << result.input.cloud.points.size() << " points used";
   }
+  if (experiment.input.kind != InputKind::kNone) log << "\n";
   if (result.input.repaired) {
     const MeshRepairCounts& counts = *result.input.repaired;
     log << "repaired: " << counts.welded_vertices << " vertices welded, " << counts.split_vertices
@@ -98,13 +100,14 @@ void WriteRun(const Experiment& experiment, const RunResult& result, const std::
   WriteTrace(run.File("trace.csv"), trace);
   WriteSurfaces(experiment, result, run);
   WriteCurves(experiment, result, run);
-  if (!experiment.input.none()) {
-    WritePointCloud(run.File("deviation.ply"), result.input.cloud, {result.outcome.signed_distances, {}});
+  if (experiment.input.kind == InputKind::kScan || !result.outcome.signed_distances.empty()) {
+    WritePointCloud(run.File("deviation.ply"), result.Cloud(), {result.outcome.signed_distances, {}});
     WriteOutliers(result, run.File("outliers.csv"));
   }
   if (const auto& map = result.outcome.uncertainty) {
     WritePlyMesh(run.File("uncertainty.ply"), map->mesh, {"standard_deviation", map->standard_deviation});
   }
+  for (const RunFile& file : result.outcome.files) file.write(run.File(file.name));
   WriteFileBytes(run.File("log.txt"), LogText(experiment, result));
   run.Commit();
 }

@@ -68,7 +68,8 @@ FitType StandardFitType() {
           .solver_defaults = [](const Options&, const std::string&) { return OptionDefaults(); },
           .check = [](const Options& options) { (void)ChosenProblem(options); },
           .run = Run,
-          .takes_input = false};
+          .formats = {},
+          .input = InputKind::kNone};
 }
 
 }  // namespace frond

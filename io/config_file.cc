@@ -311,11 +311,20 @@ std::vector<OptionValue> ConfigFile::Values(const std::string& key) const {
 }
 
 std::filesystem::path ConfigFile::ResolvePath(const std::string& key) const {
-  const std::filesystem::path path = Text(key);
-  if (path.empty()) FailType(key, *Find(key), "the path of a file");
+  (void)Text(key);  // one path, not a list
+  return ResolvePaths(key).front();
+}
+
+std::vector<std::filesystem::path> ConfigFile::ResolvePaths(const std::string& key) const {
   const bool command_line = Place(key) == kCommandLine;
   const std::filesystem::path base = command_line ? std::filesystem::current_path() : folder_;
-  return (base / path).lexically_normal();
+  std::vector<std::filesystem::path> paths;
+  for (const std::string& text : Texts(key)) {
+    if (text.empty()) FailType(key, *Find(key), "the path of a file");
+    paths.push_back((base / text).lexically_normal());
+  }
+  if (paths.empty()) FailType(key, *Find(key), "the path of a file");
+  return paths;
 }
 
 void ConfigFile::CheckKeys(const std::string& section, const std::vector<std::string>& known) const {

@@ -57,6 +57,7 @@ class ConfigFile {
 
   // An absolute path: relative ones from the config's folder, those from --set from the working folder.
   std::filesystem::path ResolvePath(const std::string& key) const;
+  std::vector<std::filesystem::path> ResolvePaths(const std::string& key) const;  // of one path or a list
 
   // ConfigError at the first key of `section` ("" is the top level) that is not in `known`, with the nearest.
   void CheckKeys(const std::string& section, const std::vector<std::string>& known) const;
