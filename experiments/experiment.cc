@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iostream>
 
 #include "base/errors.h"
 #include "experiments/message.h"
@@ -101,6 +102,11 @@ void FillSolver(const Experiment& experiment, const FitOutcome& outcome, RunMetr
                      .seconds = report.seconds};
 }
 
+using Progress = std::function<void(const std::string& line)>;
+
+// One line of a terminal, each time over the last one.
+void ShowProgress(const std::string& line) { std::cerr << "\r\033[K" << line << std::flush; }
+
 // What reading the input did to it.
 void SetInputMetrics(const RunInput& input, MetricTable* metrics) {
   const auto set = [&](const char* name, auto count) {
@@ -175,6 +181,11 @@ Experiment ReadExperiment(const ConfigFile& config, const RunFlags& flags) {
   } catch (const ConfigError& error) {
     config.Fail("solver", error.what());
   }
+  try {
+    if (fit.check_solver) fit.check_solver(problem, solver.name);
+  } catch (const ConfigError& error) {
+    config.Fail("solver", error.what());
+  }
   if (fit.input == InputKind::kNone && config.Has("input")) {
     config.Fail("input", "a fit of type '" + fit.name + "' takes no input: leave 'input' out");
   }
@@ -207,7 +218,8 @@ Experiment ReadExperiment(const ConfigFile& config, const RunFlags& flags) {
           .formats = ReadFormats(config, fit.formats)};
 }
 
-RunResult RunExperiment(const Experiment& experiment, int threads) {
+RunResult RunExperiment(const Experiment& experiment, int threads,
+                        const std::function<void(const std::string& line)>& progress) {
   const auto begin = std::chrono::steady_clock::now();
   const auto solver = FindSolverType(experiment.solver_type).create(experiment.solver);
   RunResult result{LoadInput(experiment.input, experiment.seed), {}, {}};
@@ -215,7 +227,7 @@ RunResult RunExperiment(const Experiment& experiment, int threads) {
   try {
     result.outcome = FindFitType(experiment.problem_type)
                          .run(result.input, experiment.problem, *solver, experiment.budget,
-                              {.threads = threads, .seed = experiment.seed});
+                              {{.threads = threads, .seed = experiment.seed}, progress});
   } catch (const InputError& error) {
     if (experiment.input.kind != InputKind::kScan) throw;  // of photographs each message names its own file
     throw InputError(result.input.description + ": " + error.what());
@@ -252,7 +264,8 @@ std::filesystem::path FitConfig(const std::filesystem::path& config_path, const 
   const Experiment experiment = ReadExperiment(config, flags);
   const std::filesystem::path target = out.empty() ? std::filesystem::path("runs") / experiment.name : out;
   { const RunDirectory writable(target, overwrite); }  // refuse an existing target before the work, not after
-  const RunResult result = RunExperiment(experiment, flags.threads);
+  const RunResult result = RunExperiment(experiment, flags.threads, progress ? ShowProgress : Progress());
+  if (progress) ShowProgress("");
   WriteRun(experiment, result, target, overwrite);
   for (const std::string& warning : result.outcome.warnings) {
     PrintMessage("warning: " + result.input.description + ": " + warning);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,8 +48,10 @@ struct RunResult {
   const PointCloud& Cloud() const { return outcome.cloud ? *outcome.cloud : input.cloud; }
 };
 
-// Reads the input and fits. Throws InputError and FitError, with the input's name in front.
-RunResult RunExperiment(const Experiment& experiment, int threads);
+// Reads the input and fits. Throws InputError and FitError that name the input. `progress` is told how far
+// long work is (RunContext).
+RunResult RunExperiment(const Experiment& experiment, int threads,
+                        const std::function<void(const std::string& line)>& progress = {});
 
 // Writes the run directory of a result: config.yaml, metrics.json, trace.csv, the surface in the formats
 // asked for, deviation.ply, outliers.csv, the fit's own files, log.txt. All or nothing (RunDirectory).

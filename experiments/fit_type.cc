@@ -6,13 +6,16 @@
 #include "experiments/leaf_experiment.h"
 #include "experiments/skin_experiment.h"
 #include "experiments/standard_experiment.h"
+#include "experiments/stereo_experiment.h"
 #include "experiments/surface_experiment.h"
+#include "experiments/turntable_experiment.h"
 
 namespace frond {
 
 const std::vector<FitType>& FitTypes() {
   static const std::vector<FitType> types = {
-      CurveFitType(), LeafFitType(), SkinFitType(), StandardFitType(), SurfaceFitType(),
+      CurveFitType(),  LeafFitType(),    SkinFitType(),      StandardFitType(),
+      StereoFitType(), SurfaceFitType(), TurntableFitType(),
   };
   return types;
 }

@@ -47,6 +47,11 @@ struct FitOutcome {
   std::vector<RunFile> files = {};
 };
 
+// How a fit is run: with a solver's own context it takes a place to tell how far long work is.
+struct RunContext : SolveContext {
+  std::function<void(const std::string& line)> progress = {};  // "pair 3 of 24"; empty: nobody looks
+};
+
 using OptionDefaults = std::vector<std::pair<std::string, OptionValue>>;
 
 // What `output.formats` may hold for a surface, and for a curve (ply and obj: a polyline).
@@ -66,8 +71,10 @@ struct FitType {
   std::function<void(const Options& problem)> check;
   // Checks what hangs on the files that are named too; throws ConfigError. May be empty.
   std::function<void(const InputSource& input, const Options& problem)> check_input = {};
+  // Checks that the named solver can be of use; throws ConfigError. May be empty.
+  std::function<void(const Options& problem, const std::string& solver)> check_solver = {};
   std::function<FitOutcome(const RunInput& input, const Options& problem, const Solver& solver,
-                           const Budget& budget, const SolveContext& context)>
+                           const Budget& budget, const RunContext& context)>
       run;
   std::vector<std::string> formats = SurfaceFormats();  // of its result; empty: neither surface nor curve
   InputKind input = InputKind::kScan;

@@ -31,10 +31,10 @@ PointCloud ReadPointCloud(const std::filesystem::path& path, CloudReport* report
 
 // Per-point values written beside the coordinates: empty, or as many as there are points.
 struct CloudAttributes {
-  std::vector<double> deviation;                     // signed distance, in the cloud's unit
-  std::vector<std::array<std::uint8_t, 3>> colours;  // red, green, blue
-  std::vector<Eigen::Vector3d> normals = {};         // unit; written as floats nx, ny, nz
-  std::vector<double> standard_deviation = {};       // in the cloud's unit; written as a float
+  std::vector<double> deviation = {};                     // signed distance, in the cloud's unit
+  std::vector<std::array<std::uint8_t, 3>> colours = {};  // red, green, blue
+  std::vector<Eigen::Vector3d> normals = {};              // unit; written as floats nx, ny, nz
+  std::vector<double> standard_deviation = {};            // in the cloud's unit; written as a float
 };
 
 // By extension: .ply (binary, coordinates in double), .xyz, .asc, .txt (blanks between) or .csv (commas, with
