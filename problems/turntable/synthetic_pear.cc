@@ -105,7 +105,8 @@ Eigen::Matrix3d SyntheticPear::Hessian(const Eigen::Vector3d& point) const {
 SyntheticPear::Spoke SyntheticPear::SpokeAt(double theta, double longitude) const {
   const double h = shape_.height, z = h * (1 + std::cos(theta)) / 2;
   const Section at = At(z);
-  const double square = std::max(at.square[0], 0.0), square_by_theta = -at.square[1] * h * std::sin(theta) / 2;
+  const double square = std::max(at.square[0], 0.0),
+               square_by_theta = -at.square[1] * h * std::sin(theta) / 2;
   const double a = 1 + shape_.flattening * std::cos(2 * longitude), b = lobe_ * std::cos(3 * longitude);
   double r = std::sqrt(square / a);
   if (r == 0) return {0, 0, 0};
@@ -115,8 +116,8 @@ SyntheticPear::Spoke SyntheticPear::SpokeAt(double theta, double longitude) cons
     if (std::abs(step) < 1e-15 * h) break;
   }
   const double by_r = r * (2 * a + 3 * b * r);
-  const double by_longitude = r * r * (-2 * shape_.flattening * std::sin(2 * longitude) -
-                                       3 * lobe_ * r * std::sin(3 * longitude));
+  const double by_longitude =
+      r * r * (-2 * shape_.flattening * std::sin(2 * longitude) - 3 * lobe_ * r * std::sin(3 * longitude));
   return {r, square_by_theta / by_r, -by_longitude / by_r};
 }
 
