@@ -144,14 +144,19 @@ void Describe(const Views& views, const PoseRefinementOptions& options, PoseRefi
         "a view's angle was corrected by more than three times what was expected; check the angles of the "
         "views and the calibration of the axis");
   }
-  if (refinement->after.normalised > 3) {
-    refinement->warnings.emplace_back(
-        "the views do not fit together: their surfaces lie apart by more than three standard deviations; "
-        "check the angles (their sign too) and the calibration of the axis");
-  }
+  std::optional<std::string> warning = OverlapWarning(refinement->after);
+  if (warning) refinement->warnings.push_back(*std::move(warning));
 }
 
 }  // namespace
+
+std::optional<std::string> OverlapWarning(const OverlapErrors& errors) {
+  constexpr double kMost = 3;
+  if (errors.normalised <= kMost) return std::nullopt;
+  return "the views do not fit together: their surfaces lie " + std::to_string(errors.normalised) +
+         " standard deviations apart; check the angles (their sign too) and the calibration of the axis, or "
+         "let the poses be refined";
+}
 
 OverlapErrors MeasureOverlaps(const Views& views, const PoseRefinementOptions& options, int threads) {
   return ErrorsOfOverlaps(FindOverlaps(
