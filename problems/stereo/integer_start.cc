@@ -12,10 +12,10 @@
 namespace frond {
 namespace {
 
-constexpr int kFinestForRange = 2;     // the range is found on a quarter of the image's size
-constexpr float kSureMatch = 0.85f;    // correlation of the disparities that tell the range
-constexpr std::size_t kFewest = 50;    // of them
-constexpr std::size_t kTail = 200;     // 1/200 of them at each end is left out
+constexpr int kFinestForRange = 2;   // the range is found on a quarter of the image's size
+constexpr float kSureMatch = 0.85f;  // correlation of the disparities that tell the range
+constexpr std::size_t kFewest = 50;  // of them
+constexpr std::size_t kTail = 200;   // 1/200 of them at each end is left out
 
 void ClearOutside(const Mask& mask, Image& disparity) {
   if (mask.empty()) return;
@@ -30,8 +30,8 @@ std::array<int, 2> DisparityRange(const Image& left, const Image& right, const M
                                   const Mask& right_mask, int threads) {
   const int half = left.width / 2;
   const int finest = std::min(kFinestForRange, CoarsestLevel(left));
-  const IntegerDisplacements found = CorrelatePyramid(left, right, left_mask, right_mask,
-                                                      {{-half, half}, {0, 0}}, finest, threads);
+  const IntegerDisplacements found =
+      CorrelatePyramid(left, right, left_mask, right_mask, {{-half, half}, {0, 0}}, finest, threads);
   std::vector<float> disparities;
   for (std::size_t i = 0; i < found.u.values.size(); ++i) {
     if (!std::isnan(found.u.values[i]) && found.correlation.values[i] > kSureMatch) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/options.h"
-#include "problems/stereo/window_matcher.h"
+#include "problems/stereo/window_model.h"
 
 namespace frond {
 
@@ -29,12 +29,13 @@ struct StereoMatchOptions {
   int step = 4;  // between the centres of windows, both ways
   MatchMethod method = MatchMethod::kWindow;
   MatchDerivatives derivatives = MatchDerivatives::kStructured;
+  double start_box = 1;  // half the box about a start in which solvers such as pso search
   MatchStart start = MatchStart::kSgbm;
   // Smallest and largest disparity x_left − x_right, may be negative; none: found from the images, and a pair
   // whose disparities are all negative is refused as swapped. Not rectified: the largest |displacement|.
   std::optional<std::array<int, 2>> disparity = std::nullopt;
   bool propagate = true;         // windows without a good match start again from their neighbours'
-  double min_texture = 2;        // standard deviation of grey along x in the window
+  double min_texture = 0.3;      // RMS slope of grey along x in the window, grey levels a pixel
   double min_correlation = 0.8;  // of the window and its counterpart after the fit
   double max_sigma = 0.2;        // of the disparity
   double left_right = 0.5;       // largest difference of the match back from the right image; 0: no check

@@ -200,8 +200,7 @@ IntegerDisplacements SearchLevel(const Level& level, const IntegerDisplacements*
         if (!Counts(level.left_mask, x, y)) continue;
         const LeftWindow window(level, x, y);
         if (!window.HasTexture()) continue;
-        const Best best =
-            coarser ? SearchNear(window, *coarser, x, y, range) : SearchAll(window, range);
+        const Best best = coarser ? SearchNear(window, *coarser, x, y, range) : SearchAll(window, range);
         if (best.correlation < kLeastMatch) continue;
         found.u(x, y) = static_cast<float>(best.u);
         found.v(x, y) = static_cast<float>(best.v);

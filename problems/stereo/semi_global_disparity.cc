@@ -10,10 +10,10 @@
 namespace frond {
 namespace {
 
-constexpr int kBlock = 5;          // side of the blocks whose costs are summed, pixels
-constexpr int kUniqueness = 5;     // the best cost is this many per cent better than the second
-constexpr int kSpeckle = 50;       // smaller patches of one disparity are noise, pixels
-constexpr int kSubPixel = 16;      // OpenCV's disparities are in sixteenths
+constexpr int kBlock = 5;       // side of the blocks whose costs are summed, pixels
+constexpr int kUniqueness = 5;  // the best cost is this many per cent better than the second
+constexpr int kSpeckle = 50;    // smaller patches of one disparity are noise, pixels
+constexpr int kSubPixel = 16;   // OpenCV's disparities are in sixteenths
 
 cv::Mat EightBit(const Image& image) {
   cv::Mat grey(image.height, image.width, CV_8UC1);

@@ -5,37 +5,16 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "models/raster.h"
 #include "problems/stereo/match_options.h"
-#include "problems/stereo/window_matcher.h"
-#include "solvers/solver.h"
+#include "problems/stereo/matched_window.h"
+#include "problems/stereo/window_method.h"
 
 namespace frond {
-
-enum class WindowStatus : std::uint8_t {
-  kAccepted,
-  kOutside,         // too few pixels on the object, or their counterparts outside the right image
-  kNoTexture,       // grey hardly changes along x
-  kNoStart,         // neither a start of its own nor a good neighbour
-  kNotConverged,    // the fit
-  kLowCorrelation,  // of the window and its counterpart
-  kUncertain,       // standard deviation too large
-  kLeftRight,       // the match back from the right image ends elsewhere
-  kDiscontinuity,   // the window straddles an edge in depth
-};
-inline constexpr std::size_t kWindowStatuses = 9;
-const char* WindowStatusName(WindowStatus status);  // "accepted", "outside", …
-
-struct MatchedWindow {
-  int x = 0, y = 0;  // centre, in the left image
-  WindowStatus status = WindowStatus::kOutside;
-  WindowMatch match = {};
-};
 
 struct StereoMatches {
   int step = 1;
@@ -50,13 +29,6 @@ struct StereoMatches {
   std::array<std::size_t, kWindowStatuses> counts = {};  // windows by status
   std::array<int, 2> disparity_range = {};               // searched by the start
   std::vector<std::string> warnings = {};
-};
-
-// The solver of the auto-diff fit (MatchDerivatives::kAutodiff); not owned.
-struct WindowSolver {
-  const Solver* solver = nullptr;
-  Budget budget = {};
-  std::uint64_t seed = 0;
 };
 
 // Masks are empty (all pixels count) or of their image's size. The same bits for any number of threads.

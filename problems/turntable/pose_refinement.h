@@ -2,7 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct PoseRefinement {
 PoseRefinement RefinePoses(const std::vector<std::vector<ScanPoint>>& views,
                            const PoseRefinementOptions& options, int threads);
 void ApplyCorrections(const PoseRefinement& refinement, std::vector<std::vector<ScanPoint>>* views);
+
+// What to say of views that do not fit together, by more than three standard deviations.
+std::optional<std::string> OverlapWarning(const OverlapErrors& errors);
 
 OverlapErrors MeasureOverlaps(const std::vector<std::vector<ScanPoint>>& views,
                               const PoseRefinementOptions& options, int threads);

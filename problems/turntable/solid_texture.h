@@ -12,13 +12,13 @@ namespace frond {
 class SolidTexture {
  public:
   // `grain`: the lattice step, in the points' unit.
-  SolidTexture(std::uint64_t seed, double grain) : seed_(seed), scale_(1 / grain) {}
+  SolidTexture(std::uint32_t seed, double grain) : seed_(seed), scale_(1 / grain) {}
 
   // Mean 0, standard deviation 1 over space.
   double Value(const Eigen::Vector3d& point) const;
 
  private:
-  std::uint64_t seed_;
+  std::uint32_t seed_;
   double scale_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -9,19 +10,18 @@
 
 namespace frond {
 
-// A pear's shape. Lengths in mm, in its own frame: it stands on z = 0, its stalk end at z = `height`.
+// A pear's shape. Lengths in mm, in its own frame: it stands on z = 0, its stalk end is at z = `height`.
 struct PearShape {
   double height = 100;
-  double girth = 1;          // factor of all radii; at 1 the belly is 68 mm wide where the height is 100 mm
   double bend = 0.05;        // sideways shift of the stalk end over the height
-  double flattening = 0.03;  // relative difference of the belly's half-axes from round
+  double flattening = 0.03;  // of the squared half-axes of a section from round, up and down
   double lobes = 0.03;       // relative height of three lobes at the belly
 };
 
 // A pear given by a polynomial, so that its surface is smooth everywhere, poles included. With s = z/height,
 // the bent core line (bx, by)(s) and X = x − bx, Y = y − by, inside is where
-//   F = X² + Y² + flattening (X² − Y²) + (lobes / r_belly) (X³ − 3XY²) − ρ²(s) < 0,  0 ≤ s ≤ 1,
-// ρ² = height² s (1 − s) q(s) the squared radius, which falls to 0 linearly at both ends: round poles.
+//   F = X² + Y² + flattening (X² − Y²) + (lobes / belly radius) (X³ − 3XY²) − ρ²(s) < 0,  0 < s < 1;
+// ρ² = height² s (1 − s) q(s), the squared radius, falls to 0 linearly at both ends: round poles.
 class SyntheticPear {
  public:
   explicit SyntheticPear(const PearShape& shape);  // throws ConfigError on a value out of its range
@@ -38,11 +38,12 @@ class SyntheticPear {
   // The surface over the polar angle theta in [0, π] (0: the stalk end) and longitude in [0, 2π].
   Eigen::Vector3d Position(double theta, double longitude) const;
 
-  // t of the first point origin + t · direction, t > 0, of a ray from outside, exact to rounding; none where
-  // the ray misses.
+  // t > 0 of the first point origin + t · direction on the surface, exact to rounding, for an origin outside;
+  // none where the ray misses.
   std::optional<double> CastRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
-  // The surface's nearest point, by Newton's method from the nearest of a grid of samples.
+  // The surface's point next to `point`: Newton's method from the nearest of a grid of samples. Meant for
+  // points nearer to the surface than its radii of curvature.
   Eigen::Vector3d Foot(const Eigen::Vector3d& point) const;
   double SignedDistance(const Eigen::Vector3d& point) const;  // positive outside
 
@@ -50,23 +51,30 @@ class SyntheticPear {
   double Area() const;
   double Volume() const;
 
-  // A closed mesh with its vertices on the surface: rings × around, and a vertex at each pole. Its
+  // A closed mesh, its vertices on the surface: `rings` rings of `around` vertices and one at each pole.
   // `parameters` are (theta, longitude).
   SurfaceMesh Mesh(int rings, int around) const;
 
  private:
-  struct Section {  // at one z: the core line and ρ², with first and second derivatives by z
-    double bx, by, square;
-    double bx1, by1, square1;
-    double bx2, by2, square2;
+  // At one z: the core line and the squared radius with their first and second derivatives by z.
+  struct Section {
+    std::array<double, 3> x, y, square;
+  };
+  // A place of a section: the radius at one longitude and its derivatives by theta and longitude.
+  struct Spoke {
+    double radius, by_theta, by_longitude;
   };
   Section At(double z) const;
-  double ValueOnly(double x, double y, double z) const;
-  std::optional<double> FirstRoot(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                                  double begin, double end) const;
+  Spoke SpokeAt(double theta, double longitude) const;
+  double Along(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t,
+               double* slope) const;
+  double Refine(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double outside,
+                double inside) const;
 
   PearShape shape_;
-  double lobe_ = 0;  // lobes / r_belly
+  std::array<double, 7> square_{};  // of ρ² by powers of z
+  double bend_x_ = 0, bend_y_ = 0;  // of the core line by z³ and z²
+  double lobe_ = 0;                 // lobes / belly radius
   double largest_radius_ = 0;
   std::vector<Eigen::Vector3d> samples_;
 };

@@ -14,7 +14,7 @@ namespace frond {
 
 struct MergeOptions {
   std::optional<double> spacing = {};  // of the merged points; default: that of the views' own points
-  double reach = 2;                    // radius of a neighbourhood, in spacings
+  double reach = 2.5;                  // radius of a neighbourhood, in spacings
   double normal_agreement = 0.5;       // least cosine between the normals of one surface
   double outlier_sigmas = 4;           // a neighbour farther off the local surface than this is left out
   std::size_t least_neighbours = 6;
