@@ -93,14 +93,15 @@ void CheckCameraSize(const PinholeCamera& camera, const Image& image, const std:
 NormalPair NormalImages(const StereoInput& input, const StereoPair& cameras, int threads) {
   CheckCameraSize(cameras.left, input.left, input.names[0]);
   CheckCameraSize(cameras.right, input.right, input.names[1]);
-  NormalPair pair{.normal = Rectify(cameras)};
+  NormalPair pair;
+  pair.normal = Rectify(cameras);
   const TurntableView left{.image = input.left, .colour = input.left_colour, .mask = input.left_mask};
   const TurntableView right{.image = input.right, .mask = input.right_mask};
-  NormalView normal = ResampleView(left, cameras.left, pair.normal, 0, threads);
+  NormalView normal = ResampleView(left, cameras.left, pair.normal, 0, true, threads);
   pair.left = std::move(normal.image);
   pair.left_colour = std::move(normal.colour);
   pair.left_mask = std::move(normal.mask);
-  normal = ResampleView(right, cameras.right, pair.normal, 1, threads);
+  normal = ResampleView(right, cameras.right, pair.normal, 1, false, threads);
   pair.right = std::move(normal.image);
   pair.right_mask = std::move(normal.mask);
   return pair;

@@ -106,41 +106,6 @@ struct LinearCell {
   }
 };
 
-struct Resampled {
-  Image image;
-  Mask mask;
-  ColourImage colour;
-};
-
-Resampled Resample(const TurntableView& view, const PinholeCamera& camera, const Rectification& normal,
-                   std::size_t side, bool with_colour, int threads) {
-  const CubicImage grey(view.image);
-  Resampled out{.image = Image(normal.width, normal.height, 0),
-                .mask = Mask(normal.width, normal.height, 0),
-                .colour = with_colour ? ColourImage(normal.width, normal.height) : ColourImage()};
-  const Eigen::Matrix3d to_camera = normal.rotation[side].transpose();
-  ParallelFor(static_cast<std::size_t>(normal.height), 16, threads, [&](std::size_t begin, std::size_t end) {
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      for (int x = 0; x < normal.width; ++x) {
-        const Eigen::Vector3d direction =
-            to_camera * Eigen::Vector3d((x - normal.cx[side]) / normal.f, (y - normal.cy) / normal.f, 1);
-        LinearCell cell;
-        if (!(direction.z() > 0) || !cell.Set(camera.Project(direction), view.image)) continue;
-        out.image(x, y) = static_cast<float>(grey.ValueAt(cell.x + cell.a, cell.y + cell.b));
-        const double inside =
-            view.mask.empty() ? 1 : cell.Value([&](int i, int k) { return double(view.mask(i, k)); });
-        out.mask(x, y) = inside >= 0.5 ? 1 : 0;
-        if (!with_colour) continue;
-        for (std::size_t c = 0; c < 3; ++c) {
-          out.colour(x, y)[c] = static_cast<std::uint8_t>(
-              std::lround(cell.Value([&](int i, int k) { return double(view.colour(i, k)[c]); })));
-        }
-      }
-    }
-  });
-  return out;
-}
-
 }  // namespace
 
 BoundingCylinder CylinderOfSilhouettes(std::span<const TurntableView> views, const TurntableRig& rig,
@@ -204,6 +169,35 @@ Rectification CropToCylinder(const TurntableRig& rig, double left_angle, double 
   return normal;
 }
 
+NormalView ResampleView(const TurntableView& view, const PinholeCamera& camera, const Rectification& normal,
+                        std::size_t side, bool with_colour, int threads) {
+  const CubicImage grey(view.image);
+  NormalView out{.image = Image(normal.width, normal.height, 0),
+                 .mask = Mask(normal.width, normal.height, 0),
+                 .colour = with_colour ? ColourImage(normal.width, normal.height) : ColourImage()};
+  const Eigen::Matrix3d to_camera = normal.rotation[side].transpose();
+  ParallelFor(static_cast<std::size_t>(normal.height), 16, threads, [&](std::size_t begin, std::size_t end) {
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      for (int x = 0; x < normal.width; ++x) {
+        const Eigen::Vector3d direction =
+            to_camera * Eigen::Vector3d((x - normal.cx[side]) / normal.f, (y - normal.cy) / normal.f, 1);
+        LinearCell cell;
+        if (!(direction.z() > 0) || !cell.Set(camera.Project(direction), view.image)) continue;
+        out.image(x, y) = static_cast<float>(grey.ValueAt(cell.x + cell.a, cell.y + cell.b));
+        const double inside =
+            view.mask.empty() ? 1 : cell.Value([&](int i, int k) { return double(view.mask(i, k)); });
+        out.mask(x, y) = inside >= 0.5 ? 1 : 0;
+        if (!with_colour) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+          out.colour(x, y)[c] = static_cast<std::uint8_t>(
+              std::lround(cell.Value([&](int i, int k) { return double(view.colour(i, k)[c]); })));
+        }
+      }
+    }
+  });
+  return out;
+}
+
 NormalPair RectifyViews(const TurntableView& left, const TurntableView& right, const TurntableRig& rig,
                         const BoundingCylinder& cylinder, int threads) {
   for (const TurntableView* view : {&left, &right}) {
@@ -216,8 +210,8 @@ NormalPair RectifyViews(const TurntableView& left, const TurntableView& right, c
   pair.normal = CropToCylinder(rig, left.angle, right.angle, cylinder, &disparities);
   pair.min_disparity = disparities[0];
   pair.max_disparity = disparities[1];
-  Resampled first = Resample(left, rig.camera, pair.normal, 0, !left.colour.empty(), threads);
-  Resampled second = Resample(right, rig.camera, pair.normal, 1, false, threads);
+  NormalView first = ResampleView(left, rig.camera, pair.normal, 0, !left.colour.empty(), threads);
+  NormalView second = ResampleView(right, rig.camera, pair.normal, 1, false, threads);
   pair.left = std::move(first.image);
   pair.left_mask = std::move(first.mask);
   pair.left_colour = std::move(first.colour);

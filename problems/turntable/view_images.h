@@ -25,6 +25,18 @@ struct BoundingCylinder {
 BoundingCylinder CylinderOfSilhouettes(std::span<const TurntableView> views, const TurntableRig& rig,
                                        double margin = 0.03);
 
+// One photograph as a normal image.
+struct NormalView {
+  Image image = {};
+  Mask mask = {};  // 1: of the object (where the photograph has a mask) and inside the photograph
+  ColourImage colour = {};
+};
+
+// `view`, of `camera`, resampled into side 0 (left) or 1 (right) of a normal pair: grey values by a cubic
+// B-spline, the mask and, where asked for, colours linearly.
+NormalView ResampleView(const TurntableView& view, const PinholeCamera& camera, const Rectification& normal,
+                        std::size_t side, bool with_colour, int threads);
+
 // A pair of views as normal images (acquisition paper, 2.1), cut to where the object can be.
 struct NormalPair {
   Rectification normal;
