@@ -13,6 +13,7 @@
 
 #include "apps/command_line.h"
 #include "apps/listing.h"
+#include "apps/summary.h"
 #include "base/errors.h"
 #include "experiments/convert.h"
 #include "experiments/experiment.h"
@@ -46,14 +47,15 @@ constexpr char kHelp[] = R"(frond: scans of natural objects to exact CAD surface
 
 usage: frond COMMAND [ARGUMENTS] [--flags]
 
-  fit CONFIG      fit one scan (or all runs of a config's sweep) and write a run directory
+  fit CONFIG      fit one scan, or match and merge photographs (or all runs of a config's sweep), and write a
+                  run directory
   study CONFIG [FOLDER...]
                   compare solvers: problems x solvers x repetitions, then tables, profiles, tests; goes on where
                   it was stopped; takes over results from FOLDERs of the same study run elsewhere
   report FOLDER   write the report of a study again
   check CONFIG    say whether a config is right, without running it
   list [NAME]     fits, solvers, problem sets, synthetic scans and formats; or one's options
-  synth KIND      make a synthetic scan with its truth: leaf, cylinder, cone, sphere, torus
+  synth KIND      make a synthetic scan with its truth: leaf, cylinder, cone, sphere, torus, turntable
   mesh RUN        finite elements on a run's surface, or inside it (by Gmsh, package gmsh): RUN/mesh.FORMAT
   convert IN OUT  surfaces, curves, clouds and meshes from one format to another
 
@@ -94,37 +96,11 @@ void CheckCount(const std::vector<std::string>& arguments, std::size_t least, st
   if (arguments.size() - 1 < least || arguments.size() - 1 > most) throw ConfigError("usage: frond " + usage);
 }
 
-void PrintSummary(const std::filesystem::path& folder) {
-  if (FLAGS_quiet) return;
-  const std::filesystem::path file = folder / "metrics.json";
-  if (std::filesystem::exists(file)) {
-    const RunMetrics run = ReadMetricsJson(file);
-    if (run.input.points == 0) {
-      std::cout << run.problem << ": objective " << run.solver.objective << ", " << run.solver.termination
-                << ", " << run.solver.evaluations << " evaluations, " << run.seconds << " s\n"
-                << folder.string() << "\n";
-      return;
-    }
-    std::cout << run.problem << ": " << run.input.points << " points, rmse " << run.metrics.Number("rmse")
-              << " " << run.unit << ", max " << run.metrics.Number("max") << " " << run.unit;
-    if (run.metrics.Find("area") != nullptr) {
-      std::cout << ", area " << run.metrics.Number("area") << " " << run.unit << "^2";
-    }
-    if (run.metrics.Find("outliers") != nullptr) {
-      std::cout << ", " << run.metrics.Number("outliers") << " outliers";
-    }
-    if (run.metrics.Find("length") != nullptr) {
-      std::cout << ", length " << run.metrics.Number("length") << " " << run.unit;
-    }
-    std::cout << ", " << run.solver.termination << ", " << run.seconds << " s\n";
-  }
-  std::cout << folder.string() << "\n";
-}
-
 void Fit(const std::vector<std::string>& arguments) {
   CheckCount(arguments, 1, 1, "fit CONFIG [--set=…] [--out=DIR] [--overwrite]");
   const bool progress = !FLAGS_quiet && isatty(STDERR_FILENO) != 0;
-  PrintSummary(FitConfig(arguments[1], Flags(), FLAGS_out, FLAGS_overwrite, progress));
+  const std::filesystem::path folder = FitConfig(arguments[1], Flags(), FLAGS_out, FLAGS_overwrite, progress);
+  if (!FLAGS_quiet) PrintSummary(folder, std::cout);
 }
 
 void Study(const std::vector<std::string>& arguments) {
@@ -169,10 +145,12 @@ void List(const std::vector<std::string>& arguments) {
 }
 
 void Synth(const std::vector<std::string>& arguments) {
-  CheckCount(arguments, 1, 1,
-             "synth KIND [--seed=N] [--set=…] [--out=DIR]; KIND: leaf, cylinder, cone, sphere, torus");
+  CheckCount(
+      arguments, 1, 1,
+      "synth KIND [--seed=N] [--set=…] [--out=DIR]; KIND: leaf, cylinder, cone, sphere, torus, turntable");
+  const RunFlags flags = Flags();
   const std::filesystem::path folder =
-      Synthesise(arguments[1], FLAGS_set, Flags().seed.value_or(1), FLAGS_out, FLAGS_overwrite);
+      Synthesise(arguments[1], FLAGS_set, flags.seed.value_or(1), FLAGS_out, FLAGS_overwrite, flags.threads);
   if (!FLAGS_quiet) std::cout << folder.string() << "\n";
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/median.h"
 #include "io/image_file.h"
 #include "io/point_cloud_file.h"
 
@@ -18,14 +19,6 @@ constexpr double kBad = 1;  // pixels
 
 double Percent(double part, double whole) {
   return whole > 0 ? 100 * part / whole : std::numeric_limits<double>::quiet_NaN();
-}
-
-// Of the values, in any order.
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Errors of disparities against a truth.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "experiments/stereo_experiment.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "base/errors.h"
+#include "base/median.h"
 #include "base/option_specs.h"
 #include "experiments/board_views.h"
 #include "experiments/match_outputs.h"
@@ -122,12 +122,7 @@ void AddStereoCloud(const StereoMatches& matches, const NormalPair& pair, double
   }
   outcome->metrics.Set("cloud_points", static_cast<std::int64_t>(points.size()));
   if (points.empty()) outcome->warnings.push_back("no window gives a point: cloud.ply is empty");
-  std::vector<double> sigmas = cloud.standard_deviation;
-  if (!sigmas.empty()) {
-    const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-    std::nth_element(sigmas.begin(), middle, sigmas.end());
-    outcome->metrics.Set("cloud_median_sigma", *middle);
-  }
+  if (!points.empty()) outcome->metrics.Set("cloud_median_sigma", Median(cloud.standard_deviation));
   outcome->cloud = PointCloud{cloud.points};
   AddCloudFile(std::move(cloud), outcome);
 }

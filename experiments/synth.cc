@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/errors.h"
+#include "experiments/synth_turntable.h"
 #include "io/config_file.h"
 #include "io/file_bytes.h"
 #include "io/point_cloud_file.h"
@@ -15,6 +16,8 @@
 
 namespace frond {
 namespace {
+
+constexpr char kTurntable[] = "turntable";
 
 nlohmann::ordered_json PoseJson(const Eigen::Isometry3d& pose) {
   nlohmann::ordered_json rotation = nlohmann::ordered_json::array();
@@ -87,6 +90,9 @@ const std::vector<SynthKind>& SynthKinds() {
                      .help = "An open patch of a " + name + ", exact or with noise",
                      .options = AnalyticPatchSpecs(*ShapeNamed(name))});
     }
+    all.push_back({.name = kTurntable,
+                   .help = "Photographs of a pear and of a board on a turning disk",
+                   .options = SynthTurntableSpecs()});
     return all;
   }();
   return kinds;
@@ -101,7 +107,7 @@ std::string KnownKinds() {
 }  // namespace
 
 std::filesystem::path Synthesise(const std::string& kind, const std::string& set, std::uint64_t seed,
-                                 const std::filesystem::path& out, bool overwrite) {
+                                 const std::filesystem::path& out, bool overwrite, int threads) {
   const SynthKind* known = nullptr;
   for (const SynthKind& candidate : SynthKinds()) {
     if (candidate.name == kind) known = &candidate;
@@ -116,6 +122,8 @@ std::filesystem::path Synthesise(const std::string& kind, const std::string& set
   RunDirectory run(target, overwrite);
   if (const auto shape = ShapeNamed(kind)) {
     WriteAnalyticPatch(*shape, options, seed, run);
+  } else if (kind == kTurntable) {
+    WriteSynthTurntable(options, seed, threads, run);
   } else {
     WriteLeaf(options, seed, run);
   }

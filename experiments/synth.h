@@ -19,10 +19,10 @@ struct SynthKind {
 const std::vector<SynthKind>& SynthKinds();
 
 // Writes scan.ply, clean.ply (the scan's points without noise), truth.json (parameters, measures, pose), of a
-// leaf truth.ply (dense clean points), and config.yaml (kind, seed, options) into `out` (runs/synth_KIND if
-// empty), all or nothing. `set`: "points=10000; noise=0.1". Throws ConfigError for an unknown kind or option,
-// InputError where it cannot write. Returns the folder.
+// leaf truth.ply (dense clean points), of a turntable what WriteSynthTurntable tells, and config.yaml (kind,
+// seed, options) into `out` (runs/synth_KIND if empty), all or nothing. `set`: "points=10000; noise=0.1".
+// Throws ConfigError for an unknown kind or option, InputError where it cannot write. Returns the folder.
 std::filesystem::path Synthesise(const std::string& kind, const std::string& set, std::uint64_t seed,
-                                 const std::filesystem::path& out, bool overwrite);
+                                 const std::filesystem::path& out, bool overwrite, int threads = 1);
 
 }  // namespace frond
