@@ -47,7 +47,7 @@ class CubicImage {
   // At an integer row y in [0, height) the spline of the image is the spline of that row: dy is not computed.
   // The same interpolant as At, at a quarter of its price.
   CubicSample AtRow(double x, int y) const {
-    const double inside = std::clamp(x, 0.0, last_x_);
+    const double inside = x > 0 ? std::min(x, last_x_) : 0;  // of a NaN too
     const int cell = std::min(static_cast<int>(inside), width_ - 2);
     const CubicWeights w(inside - cell);
     const float* c = RowCoefficients(y) + cell;

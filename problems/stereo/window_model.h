@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -43,7 +44,10 @@ struct WindowMatch {
   double correlation = 0;  // of the right image's window with the left one's, −1 … 1
   int pixels = 0;          // that took part
   int iterations = 0;
-  long long evaluations = 0;  // charged, of a registered solver: solvers/solver.h
+  std::int64_t evaluations = 0;  // charged, of a registered solver: solvers/solver.h
+  // By how much the noise of the interpolated right image pulls the disparity towards half-way positions,
+  // where it is smoother (px; expected, contained in `warp`): interpolation_noise.h.
+  double pull = 0;
 };
 
 // The two images of a pair with their masks (empty: all ones). What is pointed at must outlive this.
