@@ -9,13 +9,8 @@
 namespace frond {
 namespace {
 
-// u of a rectified window at an offset from its centre.
-double DisparityAt(WarpKind kind, const WarpValues& w, double xi, double eta) {
-  double u = w[0];
-  if (kind != WarpKind::kShift) u += w[1] * xi + w[2] * eta;
-  if (kind == WarpKind::kQuadratic) u += w[3] * xi * xi + w[4] * xi * eta + w[5] * eta * eta;
-  return u;
-}
+constexpr double kMostDeparting = 0.01;  // share of the start's disparities: a few speckles
+constexpr double kMostLeaning = 0.2;     // beyond half the limit
 
 // Displacement x_left − x_right at the centre and its slopes.
 struct LocalShift {
@@ -57,21 +52,23 @@ WindowStatus JudgeFit(const WindowMatch& match, const StereoMatchOptions& option
   return WindowStatus::kAccepted;
 }
 
-double DepartingShare(const Image& start, const Mask& mask, const WindowModel& model,
-                      const MatchedWindow& window, double limit) {
+bool Straddles(const Image& start, const Mask& mask, const WindowModel& model, const MatchedWindow& window,
+               double limit) {
   const int half = model.size / 2;
-  int count = 0, departing = 0;
+  int count = 0, departing = 0, leaning = 0;
   for (int eta = -half; eta <= half; ++eta) {
     for (int xi = -half; xi <= half; ++xi) {
       const int column = window.x + xi, row = window.y + eta;
       if (!start.Contains(column, row) || std::isnan(start(column, row))) continue;
       if (!mask.empty() && !mask(column, row)) continue;
       ++count;
-      const double expected = DisparityAt(model.warp, window.match.warp, xi, eta);
-      if (std::abs(start(column, row) - expected) > limit) ++departing;
+      const double departure =
+          std::abs(start(column, row) - ExtrapolatedWarp(model.warp, window.match.warp, xi, eta)[0]);
+      if (departure > limit) ++departing;
+      if (departure > limit / 2) ++leaning;
     }
   }
-  return count > 0 ? static_cast<double>(departing) / count : 0;
+  return departing > kMostDeparting * count || leaning > kMostLeaning * count;
 }
 
 double BackMatchDistance(const MatchedWindow& window, WarpKind kind, const MatchWindow& back) {

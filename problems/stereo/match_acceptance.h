@@ -14,10 +14,11 @@ double WindowTexture(const Image& image, const Mask& mask, int size, int x, int 
 // The fit alone: kAccepted, kOutside, kNotConverged, kLowCorrelation or kUncertain.
 WindowStatus JudgeFit(const WindowMatch& match, const StereoMatchOptions& options);
 
-// Share of the start's disparities in the window (of the object, NaN left out) that depart from the match's
-// disparity there by more than `limit` pixels.
-double DepartingShare(const Image& start, const Mask& mask, const WindowModel& model,
-                      const MatchedWindow& window, double limit);
+// Whether the start's disparities in the window (of the object; NaN left out) tell an edge in depth: more
+// than 1 % of them depart from the match's disparity by more than `limit` pixels, or 20 % by more than half
+// of it.
+bool Straddles(const Image& start, const Mask& mask, const WindowModel& model, const MatchedWindow& window,
+               double limit);
 
 // Distance in the left image, in pixels, between the window's centre and where the match back from the right
 // image sends its counterpart; infinite where the match back fails. `back` matches with the images exchanged.

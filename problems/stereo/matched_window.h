@@ -28,4 +28,8 @@ struct MatchedWindow {
   WindowMatch match = {};
 };
 
+// The warp of a window as it is seen from a point (dx, dy) pixels from its centre: with [0] the disparity
+// there.
+WarpValues ExtrapolatedWarp(WarpKind kind, const WarpValues& warp, double dx, double dy);
+
 }  // namespace frond

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kFarFromStart = 3;  // pixels: a fit that went further has found another place
 constexpr int kFewestStarts = 3;     // of 3 × 3
-constexpr double kStraddling = 0.1;  // share of departing starts that tells an edge in depth
 constexpr std::size_t kFewestMatches = 20;
 
 // Largest displacement that is searched for, where none is given: an eighth of the smaller side.
@@ -105,7 +104,7 @@ WindowStatus PairMatcher::Judge(const MatchedWindow& window, const WarpValues& s
                dy = starts_.v.empty() ? 0 : window.match.warp[3] - start[3];
   if (std::hypot(dx, dy) > kFarFromStart) return WindowStatus::kNotConverged;
   if (options_.rectified && options_.discontinuity > 0 &&
-      DepartingShare(starts_.u, left_mask_, options_.window, window, options_.discontinuity) > kStraddling) {
+      Straddles(starts_.u, left_mask_, options_.window, window, options_.discontinuity)) {
     return WindowStatus::kDiscontinuity;
   }
   if (options_.left_right > 0 &&

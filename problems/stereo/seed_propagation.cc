@@ -46,19 +46,6 @@ std::vector<Attempt> AttemptsBeside(const WindowGrid& grid, const std::vector<ch
 
 }  // namespace
 
-WarpValues ExtrapolatedWarp(WarpKind kind, const WarpValues& warp, double dx, double dy) {
-  WarpValues moved = warp;
-  if (kind == WarpKind::kShift) return moved;
-  moved[0] += warp[1] * dx + warp[2] * dy;
-  if (kind == WarpKind::kQuadratic) {
-    moved[0] += warp[3] * dx * dx + warp[4] * dx * dy + warp[5] * dy * dy;
-    moved[1] += 2 * warp[3] * dx + warp[4] * dy;
-    moved[2] += warp[4] * dx + 2 * warp[5] * dy;
-  }
-  if (kind == WarpKind::kAffine) moved[3] += warp[4] * dx + warp[5] * dy;
-  return moved;
-}
-
 std::size_t PropagateSeeds(const WindowGrid& grid, WarpKind kind, const TryWindow& try_window, int threads,
                            std::span<MatchedWindow> windows) {
   std::vector<char> fresh(windows.size());

@@ -10,9 +10,6 @@
 
 namespace frond {
 
-// The warp of a window as it is seen from a point (dx, dy) pixels from its centre.
-WarpValues ExtrapolatedWarp(WarpKind kind, const WarpValues& warp, double dx, double dy);
-
 // A grid of windows: `index` of each node in a list, −1 where there is none.
 using WindowGrid = Raster<int>;
 

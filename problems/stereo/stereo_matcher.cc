@@ -51,14 +51,6 @@ void MatchGrid(const PairMatcher& matcher, const StereoMatchOptions& options, in
 
 }  // namespace
 
-const char* WindowStatusName(WindowStatus status) {
-  static constexpr std::array<const char*, kWindowStatuses> kNames = {
-      "accepted",        "outside",   "no_texture", "no_start",      "not_converged",
-      "low_correlation", "uncertain", "left_right", "discontinuity",
-  };
-  return kNames[static_cast<std::size_t>(status)];
-}
-
 StereoMatches MatchStereo(const Image& left, const Image& right, const Mask& left_mask,
                           const Mask& right_mask, const StereoMatchOptions& options, int threads,
                           const WindowSolver& solver, const std::array<std::string, 2>& names) {
@@ -74,7 +66,7 @@ StereoMatches MatchStereo(const Image& left, const Image& right, const Mask& lef
     ++matches.counts[static_cast<std::size_t>(window.status)];
   }
   matches.disparity_range = matcher.starts().range;
-  FillDisparities(grid.index, left, left_mask, right_mask, matcher.starts(), options, threads, matches);
+  FillDisparities({grid.index, left, left_mask, right_mask, matcher.starts(), options}, threads, matches);
   return matches;
 }
 
