@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+
+#include "models/nurbs_surface.h"
+#include "problems/surface/surface_fit.h"
+
+namespace frond {
+
+struct TurnedSurfaceFit {
+  SurfaceFit fit;                                             // in the fit's frame
+  Eigen::Isometry3d to_disk = Eigen::Isometry3d::Identity();  // the fit's frame to the disk's
+  TrimmedSurface surface;                                     // in the disk's frame
+};
+
+// The closed NURBS surface of an object on a turning disk, from points in the disk's frame: poles along the
+// axis, where a camera at the side sees neither the top nor what the object stands on; the fit's own fairness
+// closes those holes. FitSurface's frame is the disk's with x up and the origin inside the object.
+// options.topology is set to kSphere. Throws as FitSurface.
+TurnedSurfaceFit FitTurnedSurface(std::span<const Eigen::Vector3d> points, SurfaceFitOptions options,
+                                  const Solver& solver, const Budget& budget, const SolveContext& context);
+
+}  // namespace frond

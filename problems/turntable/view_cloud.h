@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "models/turntable_rig.h"
+#include "problems/stereo/stereo_matcher.h"
+#include "problems/turntable/scan_point.h"
+#include "problems/turntable/view_images.h"
+
+namespace frond {
+
+struct ViewCloudOptions {
+  double least_cosine = 0.15;         // more slanting windows are left out
+  int normal_reach = 2;               // grid steps: a normal is that of the disparities' plane within
+  double height_above_disk = -1e300;  // points lower than this z are left out (the disk, a table)
+};
+
+// The accepted windows of a pair, in the order of the grid. The point of window (x, y, δ) is Triangulate's,
+// σ is σ_δ · RangeSlope. A plane in space is a plane of disparities: with δ = δ₀ + δ₁ξ + δ₂η its normal is
+// (f δ₁, f δ₂, δ₀ − cx_l + cx_r − δ₁(x − cx_l) − δ₂(y − cy)) in the normal frame; the slopes are those of the
+// plane through the accepted neighbours' disparities (by 1/σ²), or the window's own where they are too few.
+std::vector<ScanPoint> TriangulateView(const StereoMatches& matches, const NormalPair& pair,
+                                       const TurntableRig& rig, double left_angle, int view,
+                                       const ViewCloudOptions& options);
+
+}  // namespace frond
