@@ -15,7 +15,7 @@ namespace {
 constexpr int kFinestForRange = 2;   // the range is found on a quarter of the image's size
 constexpr float kSureMatch = 0.85f;  // correlation of the disparities that tell the range
 constexpr std::size_t kFewest = 50;  // of them
-constexpr std::size_t kTail = 200;   // 1/200 of them at each end is left out
+constexpr std::size_t kTail = 500;   // 1/500 of them at each end is left out
 
 void ClearOutside(const Mask& mask, Image& disparity) {
   if (mask.empty()) return;
@@ -48,7 +48,7 @@ std::array<int, 2> DisparityRange(const Image& left, const Image& right, const M
   const int scale = 1 << finest;
   const int smallest = static_cast<int>(disparities[tail]) * scale,
             largest = static_cast<int>(disparities[disparities.size() - 1 - tail]) * scale;
-  const int margin = 2 * scale + (largest - smallest) / 8;
+  const int margin = 2 * scale + (largest - smallest) / 4;
   return {smallest - margin, largest + margin};
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/errors.h"
 #include "base/option_specs.h"
+#include "models/smoothing.h"
 
 namespace frond {
 namespace {
@@ -44,6 +45,10 @@ std::vector<OptionSpec> StereoMatchSpecs(const std::string& prefix) {
                  "that is not rectified"),
       ChoiceSpec(prefix + "radiometry", DefaultFirst(RadiometryNames(), "planar_gain"),
                  "How the right image's grey follows from the left one's within a window"),
+      NumberSpec(
+          prefix + "smoothing", defaults.window.smoothing, 0, kLargestSmoothing,
+          "Standard deviation, in pixels, of the Gaussian that smooths both images before the fit: takes "
+          "off noise that texture does not have"),
       FlagSpec(prefix + "rectified", defaults.rectified,
                "A point lies in the same row of both images; no: a specimen before and after, with the "
                "affine warp"),
@@ -82,7 +87,8 @@ StereoMatchOptions StereoMatchOptionsFrom(const Options& options, const std::str
   StereoMatchOptions match;
   match.window = {.size = options.Integer(prefix + "window"),
                   .warp = WarpFrom(options.Text(prefix + "warp")),
-                  .radiometry = RadiometryFrom(options.Text(prefix + "radiometry"))};
+                  .radiometry = RadiometryFrom(options.Text(prefix + "radiometry")),
+                  .smoothing = options.Number(prefix + "smoothing")};
   match.rectified = options.Flag(prefix + "rectified");
   if (!match.rectified && !options.IsSet(prefix + "warp")) match.window.warp = WarpKind::kAffine;
   match.step = options.Integer(prefix + "step");

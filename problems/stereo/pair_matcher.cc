@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "models/smoothing.h"
 #include "problems/stereo/integer_start.h"
 #include "problems/stereo/match_acceptance.h"
 #include "problems/stereo/pyramid_correlation.h"
@@ -49,16 +50,16 @@ StartMap FindStarts(const Image& left, const Image& right, const Mask& left_mask
 
 PairMatcher::PairMatcher(const Image& left, const Image& right, const Mask& left_mask, const Mask& right_mask,
                          const StereoMatchOptions& options, const WindowSolver& solver, StartMap starts)
-    : left_(left),
-      left_mask_(left_mask),
-      right_mask_(right_mask),
+    : left_mask_(left_mask),
       options_(options),
       starts_(std::move(starts)),
-      right_spline_(right),
-      forward_(MakeMatchWindow({&left, &left_mask, &right_spline_, &right_mask}, right, options, solver)) {
+      left_(Smoothed(left, left_mask, options.window.smoothing)),
+      right_(Smoothed(right, right_mask, options.window.smoothing)),
+      right_spline_(right_),
+      forward_(MakeMatchWindow({&left_, &left_mask, &right_spline_, &right_mask}, right_, options, solver)) {
   if (options.left_right <= 0) return;
-  left_spline_ = CubicImage(left);
-  back_ = MakeMatchWindow({&right, &right_mask, &left_spline_, &left_mask}, left, options, solver);
+  left_spline_ = CubicImage(left_);
+  back_ = MakeMatchWindow({&right_, &right_mask, &left_spline_, &left_mask}, left_, options, solver);
 }
 
 std::optional<WarpValues> PairMatcher::StartAt(int x, int y) const {

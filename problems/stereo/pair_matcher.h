@@ -46,11 +46,10 @@ class PairMatcher {
  private:
   WindowStatus Judge(const MatchedWindow& window, const WarpValues& start) const;
 
-  const Image& left_;
   const Mask& left_mask_;
-  const Mask& right_mask_;
   StereoMatchOptions options_;
   StartMap starts_;
+  Image left_, right_;  // smoothed
   CubicImage left_spline_, right_spline_;
   MatchWindow forward_, back_;
 };

@@ -13,10 +13,11 @@ namespace frond {
 namespace {
 
 constexpr int kHalfWindow = 4;
-constexpr int kLeastPixels = 27;     // a third of the window's
-constexpr int kSmallestSide = 80;    // of the coarsest level
-constexpr float kLeastTexture = 1;   // standard deviation of grey in the window
-constexpr float kLeastMatch = 0.5f;  // correlation
+constexpr int kLeastPixels = 27;                    // a third of the window's
+constexpr int kSmallSide = 80, kSmallestSide = 32;  // of the coarsest level
+constexpr int kMostTries = 400;                     // of displacements for each pixel there
+constexpr float kLeastTexture = 1;                  // standard deviation of grey in the window
+constexpr float kLeastMatch = 0.5f;                 // correlation
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 struct Level {
@@ -214,10 +215,13 @@ IntegerDisplacements SearchLevel(const Level& level, const IntegerDisplacements*
 
 }  // namespace
 
-int CoarsestLevel(const Image& image) {
+int CoarsestLevel(const Image& image, const SearchRange& range) {
   int level = 0;
-  for (int side = std::min(image.width, image.height); side / 2 >= kSmallestSide; side /= 2) ++level;
-  return level;
+  for (int side = std::min(image.width, image.height);; side /= 2, ++level) {
+    const SearchRange here = RangeAt(range, level);
+    const int tries = (here.u[1] - here.u[0] + 1) * (here.v[1] - here.v[0] + 1);
+    if (side / 2 < (tries > kMostTries ? kSmallestSide : kSmallSide)) return level;
+  }
 }
 
 IntegerDisplacements CorrelatePyramid(const Image& left, const Image& right, const Mask& left_mask,
@@ -225,7 +229,7 @@ IntegerDisplacements CorrelatePyramid(const Image& left, const Image& right, con
                                       int threads) {
   std::vector<Level> levels(1);
   levels[0] = {left, right, left_mask, right_mask};
-  const int coarsest = std::max(CoarsestLevel(left), finest);
+  const int coarsest = std::max(CoarsestLevel(left, range), finest);
   for (int k = 0; k < coarsest; ++k) {
     const Level& finer = levels.back();
     Level next;

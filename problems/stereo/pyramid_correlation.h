@@ -29,7 +29,8 @@ IntegerDisplacements CorrelatePyramid(const Image& left, const Image& right, con
                                       const Mask& right_mask, const SearchRange& range, int finest,
                                       int threads);
 
-// The level of the pyramid where the search begins: the smaller side still has 80 pixels there.
-int CoarsestLevel(const Image& image);
+// The level of the pyramid where the search begins: the smaller side still has 80 pixels there, or 32 where
+// `range` has too many displacements to try on a larger image.
+int CoarsestLevel(const Image& image, const SearchRange& range);
 
 }  // namespace frond

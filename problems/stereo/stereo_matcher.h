@@ -39,11 +39,13 @@ StereoMatches MatchStereo(const Image& left, const Image& right, const Mask& lef
                           const WindowSolver& solver = {},
                           const std::array<std::string, 2>& names = {"the left image", "the right image"});
 
-// Windows centred on `points` only, each started from the windows of a grid of options.step round it.
-// In the order of `points`.
+// Windows centred on `points` alone, in their order; each starts from the windows of a grid of options.step
+// round it. Throws as MatchStereo does, and InputError for a point outside the left image.
 std::vector<MatchedWindow> MatchPoints(const Image& left, const Image& right, const Mask& left_mask,
                                        const Mask& right_mask, std::span<const std::array<int, 2>> points,
                                        const StereoMatchOptions& options, int threads,
-                                       const WindowSolver& solver = {});
+                                       const WindowSolver& solver = {},
+                                       const std::array<std::string, 2>& names = {"the left image",
+                                                                                  "the right image"});
 
 }  // namespace frond

@@ -38,16 +38,18 @@ struct AxisCalibration {
   std::vector<double> angles;                                         // of each view, corrected; radians
 
   // Every free parameter and the covariance of all of them (σ² from the residuals):
-  //   axis.direction_x, _y   radians: turns of the axis towards the two directions orthogonal to it that lie
-  //                          nearest to the camera's x (image plane) and z (viewing direction); value 0
-  //   axis.point_x, _y       unit: shifts of the axis along the same; value 0
-  //   board.rotation_x…z     radians: rotation vector applied after the board's pose; value 0
-  //   board.position_x…z     unit: of the board's origin in the camera's frame at 0 degrees
-  //   angle.NAME             radians: correction of a view's angle
-  //   camera.fx … camera.k3  where free
+  //   axis.direction_x, _z   radians: turns of the axis towards the directions orthogonal to it nearest to
+  //   the
+  //                          camera's x (in the image) and z (the viewing direction); value 0
+  //   axis.point_x, _z       unit: shifts of the axis along the same; value 0
+  //   board.rotation_x … z   radians: rotation vector applied after the board's pose; value 0
+  //   board.position_x … z   unit: of the board's origin in the camera's frame, the disk at 0 degrees
+  //   camera.fx, fy, cx, cy, k1, k2, p1, p2, k3  where free
+  //   angle.VIEW             radians: correction of the view's angle, where free
   std::vector<std::string> parameter_names;
   Eigen::VectorXd parameters;
   Eigen::MatrixXd covariance;
+  std::vector<int> angle_parameter;  // of each view: index of its angle above, -1 where held
 
   Estimate distance;  // the paper's d, unit
   Estimate tilt;      // radians, see TurntableRig
@@ -55,11 +57,12 @@ struct AxisCalibration {
 
   double corner_sigma = 0;             // px, per coordinate, from the residuals
   double rms = 0;                      // of the distance between corner and projected point, px
-  double reversed_rms = 0;             // the same with all angles negated
+  double reversed_rms = 0;             // the same with all angles negated; infinite where no fit is found
+  double free_angles_rms = 0;          // the same with every angle free
   std::vector<double> view_rms;        // px
-  std::vector<Estimate> angle_errors;  // by a fit with all angles free, against the angles given; radians
-  std::vector<std::string> suspects;   // names of views whose angle does not fit the others
-  std::vector<std::string> warnings;   // one line each
+  std::vector<Estimate> angle_errors;  // of the angles given, by a fit with all free but the first; radians
+  std::vector<std::string> warnings;   // one line each: what does not fit or is too little
+  std::vector<std::string> notes;      // one line each: what is good to know
   SolverReport report;                 // of the final fit
 };
 

@@ -82,8 +82,6 @@ SyntheticBoardView RenderBoard(const TurntableScene& scene, const Sensor& sensor
     return angle ? table.Seen(u, v) : table.Room();
   };
   Light film(camera.width, camera.height, table.Room());
-  const int supersampling = std::max(sensor.supersampling, kLeastSupersampling);
-  if (angle) Collect(table.DiskBox(), sensor.supersampling, threads, seen, &film);
   std::vector<Eigen::Vector3d> outline;  // distortion bends its edges: in short steps
   constexpr int kSteps = 20;
   const double left = -1 - kBoardMargin, right = board.columns + kBoardMargin,
@@ -95,7 +93,9 @@ SyntheticBoardView RenderBoard(const TurntableScene& scene, const Sensor& sensor
       outline.push_back(camera_from_board * Eigen::Vector3d(a * board.square, b * board.square, 0));
     }
   }
-  Collect(BoxAround(camera, outline, 3), supersampling, threads, seen, &film);
+  const PixelBox box = BoxAround(camera, outline, 3);
+  Collect(box, {}, std::max(sensor.supersampling, kLeastSupersampling), threads, seen, &film);
+  if (angle) Collect(table.DiskBox(), box, sensor.supersampling, threads, seen, &film);
   Sensor grey = sensor;
   grey.colour = false;
   view.image = Develop(std::move(film), grey, {}, random).image;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problems/turntable/synthetic_pear.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -184,7 +185,7 @@ std::optional<double> SyntheticPear::CastRay(const Eigen::Vector3d& origin,
 
   // F along the ray from step to step: a root lies where its sign changes, or on both sides of a minimum
   // below 0.
-  constexpr int kSteps = 16;
+  constexpr int kSteps = 10;
   double t0 = begin, slope0 = 0;
   if (Along(origin, direction, t0, &slope0) < 0) return std::nullopt;  // not from outside
   for (int i = 1; i <= kSteps; ++i) {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problems/turntable/turned_surface.h"
 
+#include <cmath>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include "base/errors.h"
 #include "models/nurbs_operations.h"
 #include "problems/surface/closed_start.h"
+#include "problems/turntable/unseen_poles.h"
 
 namespace frond {
 namespace {
@@ -23,6 +27,37 @@ Eigen::Isometry3d FrameOf(std::span<const Eigen::Vector3d> points) {
   return to_disk;
 }
 
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// The caps' points are none of the scan's.
+void JudgeWithoutCaps(const std::vector<Eigen::Vector3d>& points, bool distance_fit, int threads,
+                      SurfaceFit* fit) {
+  fit->outlier.resize(points.size());
+  FitJudgement judgement = JudgeFit(points, fit->outlier, fit->surface, threads);
+  fit->quality = judgement.quality;
+  fit->errors = judgement.errors;
+  if (distance_fit) {  // its parameters are the feet
+    fit->errors.parametric_total = fit->errors.perpendicular_total;
+    fit->errors.parametric_mean = fit->errors.perpendicular_mean;
+  }
+  fit->distances = std::move(judgement.distances);
+}
+
+void AddWarnings(const std::array<PoleCap, 2>& caps, SurfaceFit* fit) {
+  constexpr std::array<const char*, 2> kEnds{"bottom", "top"};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::string end = std::string("the object's ") + kEnds[k];
+    if (!caps[k].closable) {
+      fit->warnings.push_back(
+          end + " is not seen and its rim does not tell its shape; the surface there is a guess");
+    } else if (!caps[k].points.empty()) {
+      fit->warnings.push_back(end + " is not seen within " +
+                              std::to_string(static_cast<int>(std::ceil(caps[k].opening * kDegrees))) +
+                              " degrees of the axis; the surface there continues the ring around it");
+    }
+  }
+}
+
 }  // namespace
 
 TurnedSurfaceFit FitTurnedSurface(std::span<const Eigen::Vector3d> points, SurfaceFitOptions options,
@@ -38,9 +73,18 @@ TurnedSurfaceFit FitTurnedSurface(std::span<const Eigen::Vector3d> points, Surfa
   if (options.base == BaseSurface::kAuto) {
     options.base = IsStarShaped(local) ? BaseSurface::kSphere : BaseSurface::kCylinder;
   }
-  SurfaceFit fit = FitSurface(local, {}, std::nullopt, options, solver, budget, context);
+  std::array<PoleCap, 2> caps{CloseUnseenPole(local, -1), CloseUnseenPole(local, 1)};
+  std::vector<Eigen::Vector3d> closed = local;
+  for (const PoleCap& cap : caps) closed.insert(closed.end(), cap.points.begin(), cap.points.end());
+  SurfaceFit fit = FitSurface(closed, {}, std::nullopt, options, solver, budget, context);
+  if (closed.size() > local.size())
+    JudgeWithoutCaps(local, options.method == SurfaceMethod::kDistance, context.threads, &fit);
+  AddWarnings(caps, &fit);
   TrimmedSurface surface{Transformed(fit.surface.surface, to_disk), fit.surface.trim};
-  return {.fit = std::move(fit), .to_disk = to_disk, .surface = std::move(surface)};
+  return {.fit = std::move(fit),
+          .to_disk = to_disk,
+          .unseen = {caps[0].opening * kDegrees, caps[1].opening * kDegrees},
+          .surface = std::move(surface)};
 }
 
 }  // namespace frond
