@@ -2,27 +2,42 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
-#include "models/cubic_image.h"
+#include "problems/stereo/window_model.h"
 
 namespace frond {
 
-// What the cubic spline through white noise n of unit variance makes of it at the fraction t between two
-// pixels. Between pixels the noise is smoothed (0.73 of its variance at t = ½), which pulls least-squares
-// shifts towards the middle, and its slope adds to the slopes of the texture.
-struct InterpolationNoise {
-  double variance = 1;        // E[n(t)²]
-  double with_slope = 0;      // E[n(t) n′(t)], half the variance's derivative
-  double with_curvature = 0;  // E[n(t) n″(t)]
+// White noise n of unit variance in the pixels, smoothed with the images and seen through the cubic spline at
+// the fraction t between two pixels.
+class InterpolationNoise {
+ public:
+  struct Moments {
+    double variance = 0;        // E[n(t)²]: unsmoothed 1 at a pixel, 0.73 half-way
+    double with_curvature = 0;  // E[n(t) n″(t)]
+  };
 
-  // The nearest of kBins tabulated fractions, t in [0, 1].
-  static constexpr int kBins = 256;
-  static const InterpolationNoise& At(double t);
+  // `smoothing`: WindowModel's.
+  explicit InterpolationNoise(double smoothing);
+
+  // At the nearest tabulated fraction, t in [0, 1].
+  const Moments& At(double t) const { return table_[static_cast<std::size_t>(t * kBins + 0.5)]; }
+  double pixel_variance() const { return pixel_variance_; }  // of the smoothed noise at a pixel
+
+  // The variance of Σ h_i n_i over a window's pixels, h of size × size values, rows `stride` apart: smoothed,
+  // with neighbours that vary together.
+  double SmoothedEnergy(const double* influence, int size, int stride) const;
+  bool smooths() const { return kernel_.size() > 1; }
+
+  // The same for one row of unsmoothed samples in the cells [c, c + 1] of the right image at fractions t.
+  static double InterpolatedEnergy(const double* influence, const int* cell, const double* fraction,
+                                   int count);
+
+ private:
+  static constexpr int kBins = 64;
+  std::array<Moments, kBins + 1> table_;
+  std::vector<double> kernel_;  // of the smoothing, symmetric, its sum 1
+  double pixel_variance_ = 1;
 };
-
-// A row of influences h_i on samples at fractional positions, brought to the pixels that those are
-// interpolated from: Σ (Wᵀh)², W the weights of the interpolation. The noise of a sum Σ h_i n(x_i) is this
-// times the noise's variance. `count` samples, each in a cell [c, c + 1] of the row.
-double InterpolatedEnergy(const double* influence, const int* cell, const double* fraction, int count);
 
 }  // namespace frond

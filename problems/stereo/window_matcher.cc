@@ -29,8 +29,9 @@ class Matching {
   static constexpr int kP = System::kP, kQ = System::kQ;
   using Step = Eigen::Matrix<double, kP, 1>;
 
-  Matching(const WindowImages& images, const WindowModel& model, const WindowMatcherOptions& options)
-      : images_(images), model_(model), options_(options) {}
+  Matching(const WindowImages& images, const WindowModel& model, const InterpolationNoise& noise,
+           const WindowMatcherOptions& options)
+      : images_(images), model_(model), noise_(noise), options_(options) {}
 
   WindowMatch Match(int x, int y, const WarpValues& start) {
     WindowMatch match;
@@ -41,7 +42,7 @@ class Matching {
       match.converged = patch_.HasEnoughPixels() && system_.SetPatch(&patch_) && Minimise(&match);
       if (!match.converged || !patch_.Choose(images_, kWarp, match.warp)) break;
     }
-    if (match.converged) Describe<kWarp, kRadiometry>(patch_, samples_, reduced_, &match);
+    if (match.converged) Describe<kWarp, kRadiometry>(patch_, samples_, reduced_, noise_, &match);
     return match;
   }
 
@@ -54,7 +55,7 @@ class Matching {
     if (!patch_.HasEnoughPixels() || !system_.SetPatch(&patch_)) return match;
     system_.Evaluate(*images_.right, warp.data(), nullptr, &samples_, &reduced_);
     match.radiometry = RadiometryAfter(Step::Zero());
-    Describe<kWarp, kRadiometry>(patch_, samples_, reduced_, &match);
+    Describe<kWarp, kRadiometry>(patch_, samples_, reduced_, noise_, &match);
     return match;
   }
 
@@ -130,6 +131,7 @@ class Matching {
 
   const WindowImages& images_;
   const WindowModel& model_;
+  const InterpolationNoise& noise_;
   const WindowMatcherOptions& options_;
   WindowPatch patch_;
   WindowSamples samples_;
@@ -141,22 +143,26 @@ class Matching {
 
 WindowMatcher::WindowMatcher(const Image& left, const Mask& left_mask, const CubicImage& right,
                              const Mask& right_mask, WindowModel model, WindowMatcherOptions options)
-    : images_{&left, &left_mask, &right, &right_mask}, model_(model), options_(options) {
+    : images_{&left, &left_mask, &right, &right_mask},
+      model_(model),
+      options_(options),
+      noise_(model.smoothing) {
   CheckWindowModel(model);
   images_.Check();
 }
 
 WindowMatch WindowMatcher::Match(int x, int y, const WarpValues& start) const {
   return WithWindowKinds(model_, [&](auto warp, auto radiometry) {
-    return Matching<warp.value, radiometry.value>(images_, model_, options_).Match(x, y, start);
+    return Matching<warp.value, radiometry.value>(images_, model_, noise_, options_).Match(x, y, start);
   });
 }
 
 WindowMatch DescribeWindow(const WindowImages& images, const WindowModel& model, int x, int y,
                            const WarpValues& warp) {
   const WindowMatcherOptions options;
+  const InterpolationNoise noise(model.smoothing);
   return WithWindowKinds(model, [&](auto kind, auto radiometry) {
-    return Matching<kind.value, radiometry.value>(images, model, options).DescribeAt(x, y, warp);
+    return Matching<kind.value, radiometry.value>(images, model, noise, options).DescribeAt(x, y, warp);
   });
 }
 

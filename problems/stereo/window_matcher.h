@@ -5,6 +5,7 @@
 
 #include "models/cubic_image.h"
 #include "models/raster.h"
+#include "problems/stereo/interpolation_noise.h"
 #include "problems/stereo/window_model.h"
 
 namespace frond {
@@ -30,6 +31,7 @@ class WindowMatcher {
   WindowImages images_;
   WindowModel model_;
   WindowMatcherOptions options_;
+  InterpolationNoise noise_;
 };
 
 }  // namespace frond

@@ -2,7 +2,7 @@
 #include "problems/stereo/window_model.h"
 
 #include "base/errors.h"
-#include "base/options.h"
+#include "models/smoothing.h"
 
 namespace frond {
 namespace {
@@ -42,6 +42,10 @@ void CheckWindowModel(const WindowModel& model) {
   if (model.size < 3 || model.size > kMaxWindowSize || model.size % 2 == 0) {
     throw ConfigError("a window of " + std::to_string(model.size) +
                       " pixels a side: expected an odd number from 3 to " + std::to_string(kMaxWindowSize));
+  }
+  if (!(model.smoothing >= 0 && model.smoothing <= kLargestSmoothing)) {
+    throw ConfigError("images smoothed by " + std::to_string(model.smoothing) +
+                      " px: expected a number from 0 to " + std::to_string(kLargestSmoothing));
   }
 }
 

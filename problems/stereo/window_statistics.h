@@ -11,76 +11,74 @@
 
 namespace frond {
 
-// How noise of unit variance in both images acts on a window: n_R by the interpolation, n_L by the gain.
+// How far white noise of unit variance in both images moves the disparity, and what it leaves in the
+// residuals.
+struct NoiseResponse {
+  double disparity = 0;  // variance
+  double residuals = 0;  // expected sum of squares
+};
+
+// Expected Σ n n″ φφᵀ, φ = ∂u/∂warp: what noise of unit variance takes off the curvature of the cost that
+// Gauss–Newton's matrix has. 0 for the affine warp.
 template <WarpKind kWarp, RadiometryKind kRadiometry>
-struct WindowNoise {
+auto NoiseCurvature(const WindowPatch& patch, const WindowSamples& samples, const InterpolationNoise& noise) {
   using System = WindowSystem<kWarp, kRadiometry>;
-  static constexpr int kP = System::kP, kQ = System::kQ;
-
-  double residual_variance = 0;  // the mean, of a pixel's residual
-  // E[Σ n n″ φφᵀ] and E[Σ n n′ φ], φ = ∂(u, v)/∂warp: the curvature that Gauss–Newton's matrix has too much,
-  // and the pull of the smoother half-way positions.
-  Eigen::Matrix<double, kP, kP> curvature = Eigen::Matrix<double, kP, kP>::Zero();
-  Eigen::Matrix<double, kP, 1> pull = Eigen::Matrix<double, kP, 1>::Zero();
-
-  WindowNoise(const WindowPatch& patch, const WindowSamples& samples, const RadiometryValues& radiometry) {
-    double sum = 0;
+  Eigen::Matrix<double, System::kP, System::kP> curvature;
+  curvature.setZero();
+  if constexpr (StaysInRow(kWarp)) {
     for (int row = 0; row < patch.size; ++row) {
       for (int k = 0; k < patch.size; ++k) {
         const int i = row * patch.stride + k;
-        if (patch.weight[i] == 0) continue;
-        const double xi = k - patch.half, eta = row - patch.half;
-        const InterpolationNoise& noise = InterpolationNoise::At(samples.fraction[i]);
-        const double gain =
-            ApplyRadiometry<kRadiometry>(radiometry.data(), 1.0, xi, eta) - (kQ == 0 ? 0 : radiometry[1]);
-        sum += gain * gain + noise.variance;
-        if constexpr (StaysInRow(kWarp)) {
-          const auto phi = System::SlopeRow(1, 0, xi, eta);
-          curvature.noalias() += noise.with_curvature * phi * phi.transpose();
-          pull.noalias() += noise.with_slope * phi;
-        }
+        const auto phi = System::SlopeRow(patch.weight[i], 0, k - patch.half, row - patch.half);
+        curvature.noalias() += noise.At(samples.fraction[i]).with_curvature * phi * phi.transpose();
       }
     }
-    residual_variance = sum / patch.pixels;
   }
-};
+  return curvature;
+}
 
-// Variance of the disparity for noise of unit variance: the influence of each residual on the warp's first
-// value, through the interpolation on the pixels of the right image and through the gain on those of the left
-// one. `a`: the row of H⁻¹ of that value.
+// The influence of each residual on the warp's first value, with `a` the row of H⁻¹ of that value, gives its
+// variance: through the interpolation on the pixels of the right image, through the gain on those of the
+// left.
 template <WarpKind kWarp, RadiometryKind kRadiometry, int kP, int kQ>
-double UnitVariance(const WindowPatch& patch, const WindowSamples& samples,
-                    const RadiometryValues& radiometry, const ReducedSystem<kP, kQ>& reduced,
-                    const Eigen::Matrix<double, kP, 1>& a) {
+NoiseResponse ResponseToNoise(const WindowPatch& patch, const WindowSamples& samples,
+                              const RadiometryValues& radiometry, const ReducedSystem<kP, kQ>& reduced,
+                              const Eigen::Matrix<double, kP, 1>& a, const InterpolationNoise& noise) {
   using System = WindowSystem<kWarp, kRadiometry>;
   Eigen::Matrix<double, kQ, 1> b;
   if constexpr (kQ > 0) b = reduced.X * a;
-  std::array<double, kMaxWindowSize> influence;
-  double variance = 0;
+  std::array<double, WindowPatch::kMaxPixels> influence;
+  double squares = 0, left = 0, right = 0, residuals = 0;
   for (int row = 0; row < patch.size; ++row) {
-    double own = 0;
+    const int begin = row * patch.stride;
     for (int k = 0; k < patch.size; ++k) {
-      const int i = row * patch.stride + k;
+      const int i = begin + k;
       const double xi = k - patch.half, eta = row - patch.half;
-      double h = a.dot(System::SlopeRow(samples.slope[i], samples.slope_y[i], xi, eta));
-      double gain = 1;
+      double h = a.dot(System::SlopeRow(samples.slope[i], samples.slope_y[i], xi, eta)), gain = 1;
       if constexpr (kQ > 0) {
         h -= b.dot(System::RadiometryRow(patch.level[i], patch.weight[i], xi, eta));
         gain = ApplyRadiometry<kRadiometry>(radiometry.data(), 1.0, xi, eta) - radiometry[1];
       }
-      influence[static_cast<std::size_t>(k)] = h;
-      own += h * h;
-      variance += gain * gain * h * h;
+      influence[static_cast<std::size_t>(i)] = h;
+      squares += h * h;
+      left += gain * gain * h * h;
+      residuals +=
+          patch.weight[i] * (gain * gain * noise.pixel_variance() + noise.At(samples.fraction[i]).variance);
     }
-    if constexpr (StaysInRow(kWarp)) {
-      const int begin = row * patch.stride;
-      variance +=
-          InterpolatedEnergy(influence.data(), samples.cell + begin, samples.fraction + begin, patch.size);
-    } else {
-      variance += own;
+    if (StaysInRow(kWarp) && !noise.smooths()) {
+      right += InterpolationNoise::InterpolatedEnergy(influence.data() + begin, samples.cell + begin,
+                                                      samples.fraction + begin, patch.size);
     }
   }
-  return variance;
+  if (noise.smooths() || !StaysInRow(kWarp)) {
+    // Smoothed noise comes through the interpolation as it is.
+    right = noise.SmoothedEnergy(influence.data(), patch.size, patch.stride);
+    left *= right / squares;
+  }
+  // Each of the kP + kQ parameters takes the noise of one direction off the residuals, taken as the
+  // disparity's.
+  const double taken = (left + right) / squares;
+  return {.disparity = left + right, .residuals = residuals - (kP + kQ) * taken};
 }
 
 // Of the right image's window with the left one under the radiometry.
@@ -111,23 +109,25 @@ double Correlation(const WindowPatch& patch, const WindowSamples& samples, const
 // Fills noise, correlation and sigma of a match whose warp and radiometry are those of `reduced`.
 template <WarpKind kWarp, RadiometryKind kRadiometry, int kP, int kQ>
 void Describe(const WindowPatch& patch, const WindowSamples& samples, const ReducedSystem<kP, kQ>& reduced,
-              WindowMatch* match) {
-  const int n = patch.pixels;
-  match->pixels = n;
-  match->noise = std::sqrt(reduced.f / n);
+              const InterpolationNoise& noise, WindowMatch* match) {
+  using Matrix = Eigen::Matrix<double, kP, kP>;
+  using Vector = Eigen::Matrix<double, kP, 1>;
+  match->pixels = patch.pixels;
+  match->noise = std::sqrt(reduced.f / patch.pixels);
   match->correlation = Correlation<kRadiometry>(patch, samples, *match);
 
-  const int redundant = n - kP - kQ;
-  if (redundant <= 0) return;
-  const WindowNoise<kWarp, kRadiometry> noise(patch, samples, match->radiometry);
-  const double variance = reduced.f / redundant / noise.residual_variance;
-  Eigen::Matrix<double, kP, kP> H = reduced.H + variance * noise.curvature;
-  const Eigen::LLT<Eigen::Matrix<double, kP, kP>> factor(H);
+  // The noise's variance as the residuals show it, by Gauss–Newton's matrix and then by the corrected one.
+  Vector a = Eigen::LLT<Matrix>(reduced.H).solve(Vector::Unit(0));
+  NoiseResponse response =
+      ResponseToNoise<kWarp, kRadiometry>(patch, samples, match->radiometry, reduced, a, noise);
+  if (!(response.residuals > 0)) return;
+  const double variance = reduced.f / response.residuals;
+  const Matrix H = reduced.H + variance * NoiseCurvature<kWarp, kRadiometry>(patch, samples, noise);
+  const Eigen::LLT<Matrix> factor(H);
   if (factor.info() != Eigen::Success) return;
-  const Eigen::Matrix<double, kP, 1> a = factor.solve(Eigen::Matrix<double, kP, 1>::Unit(0));
-  match->sigma =
-      std::sqrt(variance * UnitVariance<kWarp, kRadiometry>(patch, samples, match->radiometry, reduced, a));
-  match->pull = variance * a.dot(noise.pull);
+  a = factor.solve(Vector::Unit(0));
+  response = ResponseToNoise<kWarp, kRadiometry>(patch, samples, match->radiometry, reduced, a, noise);
+  match->sigma = std::sqrt(variance * response.disparity);
 }
 
 }  // namespace frond
