@@ -18,8 +18,13 @@ struct Board {
   std::string dictionary = "DICT_4X4_50";  // of a ChArUco board, as OpenCV calls it
 };
 
-// Throws ConfigError: too few corners, lengths that are not positive, an unknown dictionary, or as many
-// columns as rows of a chessboard (it looks the same turned by 90 degrees).
+// The dictionaries of markers that are known, and the number by which OpenCV calls one. Throws ConfigError
+// naming the nearest one.
+const std::vector<std::string>& MarkerDictionaries();
+int MarkerDictionaryNumber(const std::string& name);
+
+// Throws ConfigError: too few corners, lengths that are not positive, an unknown dictionary or one
+// with too few markers, or as many columns as rows of a chessboard (it looks the same turned by 90 degrees).
 void CheckBoard(const Board& board);
 
 // "9x6 chessboard", for messages.

@@ -54,7 +54,7 @@ float Luminance(const std::array<float, 3>& colour) {
   return kLuminance[0] * colour[0] + kLuminance[1] * colour[1] + kLuminance[2] * colour[2];
 }
 
-void Collect(const PixelBox& box, int supersampling, int threads,
+void Collect(const PixelBox& box, const PixelBox& done, int supersampling, int threads,
              const std::function<std::array<float, 3>(double u, double v)>& light, Light* film) {
   if (box.y1 <= box.y0) return;
   const float share = 1.0F / static_cast<float>(supersampling * supersampling);
@@ -62,6 +62,7 @@ void Collect(const PixelBox& box, int supersampling, int threads,
     for (std::size_t row = begin; row < end; ++row) {
       const int y = box.y0 + static_cast<int>(row);
       for (int x = box.x0; x < box.x1; ++x) {
+        if (done.Contains(x, y)) continue;
         std::array<float, 3> sum{};
         for (int k = 0; k < supersampling * supersampling; ++k) {
           const double u = x - 0.5 + (k % supersampling + 0.5) / supersampling;

@@ -31,8 +31,9 @@ struct PixelBox {
   bool Contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
 };
 
-// The mean of light(u, v) over supersampling² places in each pixel of the box. Re-entrant `light`.
-void Collect(const PixelBox& box, int supersampling, int threads,
+// The mean of light(u, v) over supersampling² places in each pixel of `box` that is not in `done`. `light`
+// has to be re-entrant.
+void Collect(const PixelBox& box, const PixelBox& done, int supersampling, int threads,
              const std::function<std::array<float, 3>(double u, double v)>& light, Light* film);
 
 // Blur, exposure, noise and whole grey levels from 0 to 255. `colour` is filled for a colour sensor, and

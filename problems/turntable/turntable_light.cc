@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kWhite = 255;
 constexpr float kRoom = 9;  // grey levels
-constexpr double kDiskAlbedo = 0.06;
+constexpr double kDiskAlbedo = 0.09;
 constexpr double kDiskGrain = 1.5;                        // mm
 constexpr double kUpShare = 0.2;                          // of the ambient light, from above alone
 constexpr double kFootShade = 0.5;                        // of the ambient light, lost at the foot …

@@ -13,11 +13,11 @@ SyntheticView RenderView(const TurntableScene& scene, const Sensor& sensor, cons
   const TurntableLight light(scene, angle, true, sensor.colour);
   const auto seen = [&](double u, double v) { return light.Seen(u, v); };
   Light film(camera.width, camera.height, light.Room());
-  Collect(light.DiskBox(), sensor.supersampling, threads, seen, &film);
-  Collect(light.PearBox(), sensor.supersampling, threads, seen, &film);
+  const PixelBox box = light.PearBox();
+  Collect(box, {}, sensor.supersampling, threads, seen, &film);
+  Collect(light.DiskBox(), box, sensor.supersampling, threads, seen, &film);
 
   SyntheticView view{.angle = angle, .mask = Mask(camera.width, camera.height, 0)};
-  const PixelBox box = light.PearBox();
   for (int y = box.y0; y < box.y1; ++y) {
     for (int x = box.x0; x < box.x1; ++x) view.mask(x, y) = light.SeesPear(x, y) ? 1 : 0;
   }

@@ -29,7 +29,7 @@ struct TurntableScene {
   Eigen::Vector3d pear_origin{0, 0, 0};  // in the disk's frame: where the pear stands, on top of the disk
   double disk_radius = 80;
   SolidTexture speckle{1, 1};  // in the pear's frame
-  double contrast = 0.25;      // of the albedo: its standard deviation over its mean
+  double contrast = 0.2;       // of the albedo: its standard deviation over its mean
   double albedo = 0.5;         // the pear's mean
   Lighting lighting;
 };
