@@ -9,6 +9,7 @@
 
 #include "base/errors.h"
 #include "experiments/message.h"
+#include "experiments/named_errors.h"
 #include "experiments/study/study_plan.h"
 #include "experiments/sweep.h"
 #include "experiments/version.h"
@@ -224,16 +225,14 @@ RunResult RunExperiment(const Experiment& experiment, int threads,
   const auto solver = FindSolverType(experiment.solver_type).create(experiment.solver);
   RunResult result{LoadInput(experiment.input, experiment.seed), {}, {}};
   StageClock clock;
-  try {
-    result.outcome = FindFitType(experiment.problem_type)
-                         .run(result.input, experiment.problem, *solver, experiment.budget,
-                              {{.threads = threads, .seed = experiment.seed}, progress});
-  } catch (const InputError& error) {
-    if (experiment.input.kind != InputKind::kScan) throw;  // of photographs each message names its own file
-    throw InputError(result.input.description + ": " + error.what());
-  } catch (const FitError& error) {
-    throw FitError(result.input.description + ": " + error.what());
-  }
+  const auto fit = [&] {
+    return FindFitType(experiment.problem_type)
+        .run(result.input, experiment.problem, *solver, experiment.budget,
+             {{.threads = threads, .seed = experiment.seed}, progress});
+  };
+  // Fits of photographs have several inputs, and name themselves the one that is wrong.
+  const bool photographs = result.input.stereo || result.input.turntable;
+  result.outcome = photographs ? fit() : NameErrors(result.input.description, fit);
   RunMetrics& metrics = result.metrics;
   metrics.problem = experiment.problem_type;
   metrics.unit = result.input.unit;

@@ -219,7 +219,9 @@ RunInput LoadPhotographs(const InputSource& source) {
   input.report.format = "photographs";
   input.report.sha256 = PhotographDigest(photographs);
   if (source.kind == InputKind::kStereo) {
-    input.description = (photographs.left.empty() ? photographs.boards : photographs.left).string();
+    input.description = photographs.left.empty()
+                            ? photographs.boards.string()
+                            : photographs.left.string() + " and " + photographs.right.string();
     input.stereo = LoadStereo(photographs);
     input.unit = input.stereo->unit;
   } else {

@@ -11,6 +11,7 @@
 #include "base/option_specs.h"
 #include "experiments/board_views.h"
 #include "experiments/match_outputs.h"
+#include "experiments/named_errors.h"
 #include "io/image_file.h"
 #include "problems/stereo/stereo_calibration.h"
 #include "problems/stereo/stereo_matcher.h"
@@ -70,7 +71,9 @@ StereoPairCalibration CalibrateFromBoards(const ImagePairList& list, const Optio
       .same_focal_length = problem.Flag("calibration.same_focal_length"),
       .robust_width = problem.Number("calibration.robust_width"),
       .threads = threads};
-  StereoCalibration found = CalibrateStereo(boards.pairs, boards.width, boards.height, options);
+  StereoCalibration found = NameErrors(list.file.string(), [&] {
+    return CalibrateStereo(boards.pairs, boards.width, boards.height, options);
+  });
   outcome->warnings.insert(outcome->warnings.end(), found.warnings.begin(), found.warnings.end());
   outcome->metrics.Set("board_pairs", static_cast<std::int64_t>(boards.pairs.size()));
   return {found.pair, {.unit = unit, .rms = found.rms, .parameters = {}, .covariance = {}}};
@@ -82,17 +85,18 @@ void SetCalibrationMetrics(const StereoPairCalibration& calibration, MetricTable
   metrics->Set("focal_length_px", (calibration.pair.left.focal[0] + calibration.pair.left.focal[1]) / 2);
 }
 
-void CheckCameraSize(const PinholeCamera& camera, const Image& image, const std::string& name) {
+void CheckCameraSize(const PinholeCamera& camera, const Image& image, const std::string& side) {
   if (camera.width == image.width && camera.height == image.height) return;
-  throw InputError(name + ": is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                   " pixels, but its camera was calibrated at " + std::to_string(camera.width) + " x " +
-                   std::to_string(camera.height) + "; calibrate with images of this size");
+  throw InputError("the " + side + " image is " + std::to_string(image.width) + " x " +
+                   std::to_string(image.height) + " pixels, but its camera was calibrated at " +
+                   std::to_string(camera.width) + " x " + std::to_string(camera.height) +
+                   "; calibrate with images of this size");
 }
 
 // Both photographs of a calibrated pair as normal images.
 NormalPair NormalImages(const StereoInput& input, const StereoPair& cameras, int threads) {
-  CheckCameraSize(cameras.left, input.left, input.names[0]);
-  CheckCameraSize(cameras.right, input.right, input.names[1]);
+  CheckCameraSize(cameras.left, input.left, "left");
+  CheckCameraSize(cameras.right, input.right, "right");
   NormalPair pair;
   pair.normal = Rectify(cameras);
   const TurntableView left{.image = input.left, .colour = input.left_colour, .mask = input.left_mask};
@@ -165,11 +169,15 @@ FitOutcome Run(const RunInput& run_input, const Options& problem, const Solver& 
   }
   if (!input.left.empty()) {
     const StereoMatchOptions options = StereoMatchOptionsFrom(problem);
-    const NormalPair pair = ImagesToMatch(input, calibration, context.threads, &outcome);
+    const std::string both = input.names[0] + " and " + input.names[1];
+    const NormalPair pair =
+        NameErrors(both, [&] { return ImagesToMatch(input, calibration, context.threads, &outcome); });
     clock.End("normal_images");
-    const auto matches = std::make_shared<const StereoMatches>(
-        MatchStereo(pair.left, pair.right, pair.left_mask, pair.right_mask, options, context.threads,
-                    {.solver = &solver, .budget = budget, .seed = context.seed}, input.names));
+    const auto matches = NameErrors(both, [&] {
+      return std::make_shared<const StereoMatches>(
+          MatchStereo(pair.left, pair.right, pair.left_mask, pair.right_mask, options, context.threads,
+                      {.solver = &solver, .budget = budget, .seed = context.seed}));
+    });
     clock.End("matching");
     outcome.warnings.insert(outcome.warnings.end(), matches->warnings.begin(), matches->warnings.end());
     SetMatchMetrics(*matches, pair.left_mask, &outcome.metrics);

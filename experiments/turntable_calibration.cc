@@ -9,6 +9,7 @@
 #include "base/errors.h"
 #include "base/option_specs.h"
 #include "experiments/board_views.h"
+#include "experiments/named_errors.h"
 #include "problems/turntable/axis_calibration.h"
 #include "problems/turntable/intrinsics.h"
 
@@ -72,13 +73,14 @@ TurntableCalibration CalibrateFromBoard(const TurntableInput& input, const Optio
   outcome->metrics.Set("board_views", static_cast<std::int64_t>(boards.views.size()));
   outcome->metrics.Set("axis_views", static_cast<std::int64_t>(on_disk.size()));
   if (input.camera) CheckCamera(input.camera->camera, boards);
-  const PinholeCamera camera = input.camera ? input.camera->camera : CameraOf(boards, problem, outcome);
-  const AxisCalibration axis =
-      CalibrateAxis(camera, on_disk,
-                    {.free_angles = problem.Flag("calibration.free_angles"),
-                     .angle_sigma = problem.Number("calibration.angle_sigma") * kDegree,
-                     .free_camera = problem.Flag("calibration.free_camera"),
-                     .threads = threads});
+  const AxisOptions options{.free_angles = problem.Flag("calibration.free_angles"),
+                            .angle_sigma = problem.Number("calibration.angle_sigma") * kDegree,
+                            .free_camera = problem.Flag("calibration.free_camera"),
+                            .threads = threads};
+  const AxisCalibration axis = NameErrors(input.board->file.string(), [&] {
+    const PinholeCamera camera = input.camera ? input.camera->camera : CameraOf(boards, problem, outcome);
+    return CalibrateAxis(camera, on_disk, options);
+  });
   AddWarnings(axis.warnings, outcome);
   outcome->metrics.Set("corner_sigma_px", axis.corner_sigma);
   SetEstimate("axis_distance", axis.distance, 1, &outcome->metrics);

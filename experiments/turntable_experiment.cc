@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "experiments/board_views.h"
 #include "experiments/match_outputs.h"
+#include "experiments/named_errors.h"
 #include "experiments/surface_metrics.h"
 #include "experiments/turntable_calibration.h"
 #include "models/mesh_distance.h"
@@ -226,11 +227,14 @@ FitOutcome Run(const RunInput& run_input, const Options& problem, const Solver& 
   const SolverType& window_solver_type = FindSolverType("lm");  // the config's own solver fits the surface
   const auto window_solver = window_solver_type.create(Options(window_solver_type.options));
   options.match_solver = {.solver = window_solver.get(), .budget = {}, .seed = context.seed};
-  const auto scan = std::make_shared<const TurntableScan>(ScanTurntable(
-      input.views, calibration.rig, options, context.threads, [&](std::size_t done, std::size_t of) {
-        if (!context.progress) return;
-        context.progress("pair " + std::to_string(done) + " of " + std::to_string(of));
-      }));
+  const auto tell = [&](std::size_t done, std::size_t of) {
+    if (context.progress) context.progress("pair " + std::to_string(done) + " of " + std::to_string(of));
+  };
+  const std::string& list = run_input.description;
+  const auto scan = NameErrors(list, [&] {
+    return std::make_shared<const TurntableScan>(
+        ScanTurntable(input.views, calibration.rig, options, context.threads, tell));
+  });
   outcome.stages.insert(outcome.stages.end(), scan->stages.begin(), scan->stages.end());
   outcome.warnings.insert(outcome.warnings.end(), scan->warnings.begin(), scan->warnings.end());
   SetScanMetrics(*scan, &outcome.metrics);
@@ -242,7 +246,7 @@ FitOutcome Run(const RunInput& run_input, const Options& problem, const Solver& 
   }
   if (problem.Flag("fit_surface")) {
     if (context.progress) context.progress("surface");
-    FitSurfaceOf(run_input, problem, solver, budget, context, &outcome);
+    NameErrors(list, [&] { FitSurfaceOf(run_input, problem, solver, budget, context, &outcome); });
   }
   return outcome;
 }
