@@ -14,8 +14,20 @@ namespace {
 
 constexpr int kFinestForRange = 2;   // the range is found on a quarter of the image's size
 constexpr float kSureMatch = 0.85f;  // correlation of the disparities that tell the range
+constexpr int kMostNeighbours = 5;   // of 8, and the pixel itself
 constexpr std::size_t kFewest = 50;  // of them
-constexpr std::size_t kTail = 500;   // 1/500 of them at each end is left out
+constexpr std::size_t kTail = 200;   // 1/200 of them at each end is left out
+
+// Whether most of the 8 neighbours have the displacement too, to a pixel: chance matches stand alone.
+bool IsSupported(const Image& u, int x, int y) {
+  int support = 0;
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      if (u.Contains(x + i, y + j) && std::abs(u(x + i, y + j) - u(x, y)) <= 1) ++support;
+    }
+  }
+  return support > kMostNeighbours;
+}
 
 void ClearOutside(const Mask& mask, Image& disparity) {
   if (mask.empty()) return;
@@ -28,14 +40,16 @@ void ClearOutside(const Mask& mask, Image& disparity) {
 
 std::array<int, 2> DisparityRange(const Image& left, const Image& right, const Mask& left_mask,
                                   const Mask& right_mask, int threads) {
-  const int half = left.width / 2;
-  const int finest = std::min(kFinestForRange, CoarsestLevel(left));
+  const SearchRange all{{-left.width / 2, left.width / 2}, {0, 0}};
+  const int finest = std::min(kFinestForRange, CoarsestLevel(left, all));
   const IntegerDisplacements found =
-      CorrelatePyramid(left, right, left_mask, right_mask, {{-half, half}, {0, 0}}, finest, threads);
+      CorrelatePyramid(left, right, left_mask, right_mask, all, finest, threads);
   std::vector<float> disparities;
-  for (std::size_t i = 0; i < found.u.values.size(); ++i) {
-    if (!std::isnan(found.u.values[i]) && found.correlation.values[i] > kSureMatch) {
-      disparities.push_back(-found.u.values[i]);
+  for (int y = 0; y < found.u.height; ++y) {
+    for (int x = 0; x < found.u.width; ++x) {
+      if (found.correlation(x, y) > kSureMatch && IsSupported(found.u, x, y)) {
+        disparities.push_back(-found.u(x, y));
+      }
     }
   }
   if (disparities.size() < kFewest) {

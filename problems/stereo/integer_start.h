@@ -21,7 +21,7 @@ IntegerStart StartDisparities(const Image& left, const Image& right, const Mask&
                               const Mask& right_mask, MatchStart start,
                               const std::optional<std::array<int, 2>>& range, int threads);
 
-// Smallest and largest disparity of a reduced pair, but for a share of 1/500 at each end, widened.
+// Smallest and largest disparity of a reduced pair, but for a share of 1/200 at each end, widened.
 std::array<int, 2> DisparityRange(const Image& left, const Image& right, const Mask& left_mask,
                                   const Mask& right_mask, int threads);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/errors.h"
 #include "problems/turntable/turntable_light.h"
@@ -12,39 +13,60 @@ namespace {
 
 constexpr float kWhite = 255;
 constexpr double kPaper = 0.85, kInk = 0.05, kBack = 0.3;  // albedos
-constexpr int kLeastSupersampling = 5;                     // of a pattern with sharp edges
+
+// The mean over [x − w, x + w] of the wave that is +1 from an even to an odd number, −1 from an odd to an
+// even one.
+double MeanOfWave(double x, double w) {
+  const auto integral = [](double at) { return 1 - std::abs(at - 2 * std::floor(at / 2) - 1); };
+  return (integral(x + w) - integral(x - w)) / (2 * w);
+}
 
 // The light of a sheet with a chessboard, seen by one camera.
 class SheetLight {
  public:
-  SheetLight(const TurntableScene& scene, const Board& board, const Eigen::Isometry3d& camera_from_board)
+  // A sample stands for `sample` pixels in x and y.
+  SheetLight(const TurntableScene& scene, const Board& board, const Eigen::Isometry3d& camera_from_board,
+             double sample)
       : camera_(scene.rig.camera), board_(board), board_from_camera_(camera_from_board.inverse()) {
     const double towards = -camera_from_board.linear().col(2).dot(scene.lighting.ToLamp());
     front_ = scene.lighting.ambient + scene.lighting.diffuse * std::max(towards, 0.0);
     back_ = scene.lighting.ambient + scene.lighting.diffuse * std::max(-towards, 0.0);
+    const Eigen::Vector2d middle =
+        camera_.Project(camera_from_board * Eigen::Vector3d((board.columns - 1) / 2.0 * board.square,
+                                                            (board.rows - 1) / 2.0 * board.square, 0));
+    const Eigen::Vector2d along = (Place(middle + Eigen::Vector2d(1, 0)) - Place(middle)).cwiseAbs();
+    const Eigen::Vector2d down = (Place(middle + Eigen::Vector2d(0, 1)) - Place(middle)).cwiseAbs();
+    reach_ = 0.5 * sample * (along + down);
   }
 
   // None beside the sheet.
   std::optional<float> Seen(double u, double v) const {
-    const Eigen::Vector3d eye = board_from_camera_.translation();
-    const Eigen::Vector3d direction = board_from_camera_.linear() * camera_.Ray({u, v});
-    const double t = -eye.z() / direction.z();
-    if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
-    const double x = (eye.x() + t * direction.x()) / board_.square;
-    const double y = (eye.y() + t * direction.y()) / board_.square;
+    const Eigen::Vector2d place = Place({u, v});
+    const double x = place.x(), y = place.y();
     const double outside = std::max(std::max(-1 - x, x - board_.columns), std::max(-1 - y, y - board_.rows));
-    if (outside > kBoardMargin) return std::nullopt;
-    if (eye.z() > 0) return kWhite * static_cast<float>(kBack * back_);
-    const bool ink =
-        outside < 0 && (static_cast<int>(std::floor(x)) + static_cast<int>(std::floor(y))) % 2 == 0;
-    return kWhite * static_cast<float>((ink ? kInk : kPaper) * front_);
+    if (!(outside <= kBoardMargin)) return std::nullopt;
+    if (board_from_camera_.translation().z() > 0) return kWhite * static_cast<float>(kBack * back_);
+    if (outside > 0) return kWhite * static_cast<float>(kPaper * front_);
+    // The mean of the pattern over the sample's place, so that edges lie where they are, not between samples.
+    const double ink = (1 + MeanOfWave(x, reach_.x()) * MeanOfWave(y, reach_.y())) / 2;
+    return kWhite * static_cast<float>((kPaper + ink * (kInk - kPaper)) * front_);
   }
 
  private:
+  // On the board, in squares from the first inner corner; not a number where the pixel looks past its plane.
+  Eigen::Vector2d Place(const Eigen::Vector2d& pixel) const {
+    const Eigen::Vector3d eye = board_from_camera_.translation();
+    const Eigen::Vector3d direction = board_from_camera_.linear() * camera_.Ray(pixel);
+    const double t = -eye.z() / direction.z();
+    if (!(t > 0)) return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    return (eye + t * direction).head<2>() / board_.square;
+  }
+
   const PinholeCamera& camera_;
   const Board& board_;
   Eigen::Isometry3d board_from_camera_;
-  double front_ = 0, back_ = 0;  // light on the sheet's sides
+  double front_ = 0, back_ = 0;                      // light on the sheet's sides
+  Eigen::Vector2d reach_ = Eigen::Vector2d::Zero();  // half of a sample's size on the board, squares
 };
 
 }  // namespace
@@ -76,7 +98,7 @@ SyntheticBoardView RenderBoard(const TurntableScene& scene, const Sensor& sensor
     view.corners.push_back(camera.Project(camera_from_board * p));
   }
   const TurntableLight table(scene, angle.value_or(0), false, false);
-  const SheetLight sheet(scene, board, camera_from_board);
+  const SheetLight sheet(scene, board, camera_from_board, 1.0 / sensor.supersampling);
   const auto seen = [&](double u, double v) -> std::array<float, 3> {
     if (const auto grey = sheet.Seen(u, v)) return {*grey, *grey, *grey};
     return angle ? table.Seen(u, v) : table.Room();
@@ -94,7 +116,7 @@ SyntheticBoardView RenderBoard(const TurntableScene& scene, const Sensor& sensor
     }
   }
   const PixelBox box = BoxAround(camera, outline, 3);
-  Collect(box, {}, std::max(sensor.supersampling, kLeastSupersampling), threads, seen, &film);
+  Collect(box, {}, sensor.supersampling, threads, seen, &film);
   if (angle) Collect(table.DiskBox(), box, sensor.supersampling, threads, seen, &film);
   Sensor grey = sensor;
   grey.colour = false;

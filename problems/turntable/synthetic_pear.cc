@@ -129,27 +129,28 @@ Eigen::Vector3d SyntheticPear::Position(double theta, double longitude) const {
   return {at.x[0] + r * std::cos(longitude), at.y[0] + r * std::sin(longitude), z};
 }
 
-double SyntheticPear::Along(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t,
-                            double* slope) const {
+SyntheticPear::RayPlace SyntheticPear::PlaceOn(const Eigen::Vector3d& origin,
+                                               const Eigen::Vector3d& direction, double t) const {
   const Eigen::Vector3d point = origin + t * direction;
   const Section at = At(point.z());
   const double x = point.x() - at.x[0], y = point.y() - at.y[0];
   const double x2 = x * x, y2 = y * y;
   const double gx = 2 * x * (1 + shape_.flattening) + 3 * lobe_ * (x2 - y2);
   const double gy = 2 * y * (1 - shape_.flattening) - 6 * lobe_ * x * y;
-  *slope = gx * (direction.x() - at.x[1] * direction.z()) + gy * (direction.y() - at.y[1] * direction.z()) -
-           at.square[1] * direction.z();
-  return x2 + y2 + shape_.flattening * (x2 - y2) + lobe_ * x * (x2 - 3 * y2) - at.square[0];
+  return {.t = t,
+          .value = x2 + y2 + shape_.flattening * (x2 - y2) + lobe_ * x * (x2 - 3 * y2) - at.square[0],
+          .slope = gx * (direction.x() - at.x[1] * direction.z()) +
+                   gy * (direction.y() - at.y[1] * direction.z()) - at.square[1] * direction.z()};
 }
 
 // The root between a point outside and one inside: Newton's method, halving where it leaves the interval.
 double SyntheticPear::Refine(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double outside,
                              double inside) const {
-  double t = (outside + inside) / 2, slope = 0;
+  double t = (outside + inside) / 2;
   for (int i = 0; i < 100; ++i) {
-    const double value = Along(origin, direction, t, &slope);
-    (value > 0 ? outside : inside) = t;
-    double next = t - value / slope;
+    const RayPlace place = PlaceOn(origin, direction, t);
+    (place.value > 0 ? outside : inside) = t;
+    double next = t - place.value / place.slope;
     if (!(next > std::min(outside, inside) && next < std::max(outside, inside))) {
       next = (outside + inside) / 2;
     }
@@ -158,6 +159,37 @@ double SyntheticPear::Refine(const Eigen::Vector3d& origin, const Eigen::Vector3
     if (step <= 4e-16 * std::abs(t)) break;
   }
   return t;
+}
+
+// The first root between two places of which the first is outside. Where the cubic through both, with their
+// slopes, turns or nearly does, a short dip below 0 may hide, as of a ray that grazes the neck: halved then.
+std::optional<double> SyntheticPear::FirstRoot(const Eigen::Vector3d& origin,
+                                               const Eigen::Vector3d& direction, const RayPlace& first,
+                                               const RayPlace& second, int depth) const {
+  constexpr int kDeepest = 5;
+  constexpr double kNearly = 0.25;  // of the larger slope
+  const double h = second.t - first.t, s0 = first.slope, s1 = second.slope;
+  if (depth < kDeepest && s0 * s1 > 0) {
+    const double mean = (second.value - first.value) / h;
+    const double curve = 3 * (s0 + s1 - 2 * mean), rise = 6 * mean - 4 * s0 - 2 * s1;
+    const double at = curve != 0 ? std::clamp(-rise / (2 * curve), 0.0, 1.0) : 0.0;
+    const double turn = s0 + at * (rise + at * curve);  // the cubic's slope where it is extreme
+    if (turn * s0 < kNearly * s0 * std::copysign(std::max(std::abs(s0), std::abs(s1)), s0)) {
+      const RayPlace middle = PlaceOn(origin, direction, first.t + h / 2);
+      if (const auto root = FirstRoot(origin, direction, first, middle, depth + 1)) return root;
+      return FirstRoot(origin, direction, middle, second, depth + 1);
+    }
+  }
+  if (second.value < 0) return Refine(origin, direction, first.t, second.t);
+  if (!(s0 < 0 && s1 > 0)) return std::nullopt;
+  double low = first.t, high = second.t;  // about the minimum
+  for (int i = 0; i < 60; ++i) {
+    const RayPlace middle = PlaceOn(origin, direction, (low + high) / 2);
+    if (middle.value < 0) return Refine(origin, direction, first.t, middle.t);
+    if (middle.value > std::abs(middle.slope) * (high - low)) break;  // F is convex here: above 0 all through
+    (middle.slope < 0 ? low : high) = middle.t;
+  }
+  return std::nullopt;
 }
 
 std::optional<double> SyntheticPear::CastRay(const Eigen::Vector3d& origin,
@@ -183,28 +215,13 @@ std::optional<double> SyntheticPear::CastRay(const Eigen::Vector3d& origin,
   }
   if (!(begin < end)) return std::nullopt;
 
-  // F along the ray from step to step: a root lies where its sign changes, or on both sides of a minimum
-  // below 0.
-  constexpr int kSteps = 10;
-  double t0 = begin, slope0 = 0;
-  if (Along(origin, direction, t0, &slope0) < 0) return std::nullopt;  // not from outside
+  constexpr int kSteps = 8;
+  RayPlace last = PlaceOn(origin, direction, begin);
+  if (last.value < 0) return std::nullopt;  // not from outside
   for (int i = 1; i <= kSteps; ++i) {
-    const double t1 = begin + (end - begin) * i / kSteps;
-    double slope1 = 0;
-    if (Along(origin, direction, t1, &slope1) < 0) return Refine(origin, direction, t0, t1);
-    if (slope0 < 0 && slope1 > 0) {
-      double low = t0, high = t1;
-      for (int k = 0; k < 60; ++k) {
-        const double middle = (low + high) / 2;
-        double slope = 0;
-        const double value = Along(origin, direction, middle, &slope);
-        if (value < 0) return Refine(origin, direction, t0, middle);
-        if (value > std::abs(slope) * (high - low)) break;  // F is convex here: above 0 all through
-        (slope < 0 ? low : high) = middle;
-      }
-    }
-    t0 = t1;
-    slope0 = slope1;
+    const RayPlace next = PlaceOn(origin, direction, begin + (end - begin) * i / kSteps);
+    if (const auto root = FirstRoot(origin, direction, last, next, 0)) return root;
+    last = next;
   }
   return std::nullopt;
 }

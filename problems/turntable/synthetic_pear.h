@@ -64,10 +64,15 @@ class SyntheticPear {
   struct Spoke {
     double radius, by_theta, by_longitude;
   };
+  // A place along a ray: F there and its derivative by t.
+  struct RayPlace {
+    double t, value, slope;
+  };
   Section At(double z) const;
   Spoke SpokeAt(double theta, double longitude) const;
-  double Along(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t,
-               double* slope) const;
+  RayPlace PlaceOn(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double t) const;
+  std::optional<double> FirstRoot(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                  const RayPlace& first, const RayPlace& second, int depth) const;
   double Refine(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double outside,
                 double inside) const;
 
