@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "problems/stereo/auto_diff_matcher.h"
 #include "problems/stereo/closed_form_shift.h"
 #include "problems/stereo/differential_matching.h"
 #include "problems/stereo/window_fit.h"
@@ -80,9 +81,7 @@ MatchWindow MakeMatchWindow(const WindowImages& images, const Image& right, cons
     return [matcher](int x, int y, const WarpValues& start) { return matcher->Match(x, y, start); };
   }
   if (!solver.solver) {
-    return [=](int x, int y, const WarpValues& start) {
-      return SolveWindowAutoDiff(images, model, x, y, start);
-    };
+    return [=](int x, int y, const WarpValues& start) { return MatchByAutoDiff(images, model, x, y, start); };
   }
   return [=](int x, int y, const WarpValues& start) {
     // One thread: the windows themselves are spread over the threads.
