@@ -51,9 +51,10 @@ TEST(ClosedFormShift, OfATexturedPair_IsWithinATenthOfAPixel) {
   const WindowCase with({.slope_x = 0, .slope_y = 0.01, .noise = 0.5});
   for (const WindowPlace& place : Places(with, 9)) {
     const double truth = with.Truth(place.x, place.y);
-    const ClosedFormShift shift = MatchClosedForm(with.pair.left, {}, with.pair.right, {}, 15, place.x,
-                                                  place.y, static_cast<int>(std::lround(place.start[0])));
-    if (std::abs(std::lround(place.start[0]) - truth) > 1) continue;
+    const int start = static_cast<int>(std::lround(place.start[0]));
+    if (std::abs(start - truth) > 1) continue;
+    const ClosedFormShift shift =
+        MatchClosedForm(with.pair.left, {}, with.pair.right, {}, 15, place.x, place.y, start);
     ASSERT_TRUE(shift.found);
     EXPECT_NEAR(shift.disparity, truth, 0.1);
     EXPECT_GT(shift.correlation, 0.98);
