@@ -13,8 +13,8 @@ namespace frond {
 
 // One board seen by both cameras.
 struct BoardPair {
-  BoardCorners left, right;
-  std::string name;  // for messages: its file
+  BoardCorners left = {}, right = {};
+  std::string name = {};  // for messages: its file
 };
 
 struct StereoCalibrationOptions {

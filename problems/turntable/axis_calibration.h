@@ -14,8 +14,8 @@ namespace frond {
 // The board standing on the disk, the disk at `angle` (radians, counter-clockwise seen from above).
 struct AxisView {
   double angle = 0;
-  BoardCorners corners;
-  std::string name;  // for messages: its file
+  BoardCorners corners = {};
+  std::string name = {};  // for messages: its file
 };
 
 struct AxisOptions {

@@ -24,7 +24,7 @@ struct AxisState {
   PinholeCamera camera;
   AxisFrame frame;
   Eigen::Isometry3d camera_from_board = Eigen::Isometry3d::Identity();  // the disk at 0 degrees
-  std::vector<double> corrections;                                      // of each view's angle, radians
+  std::vector<double> corrections = {};                                 // of each view's angle, radians
 };
 
 // The axis, the board on the disk, the angles and the camera from views of the board. Residuals, px: with the

@@ -39,9 +39,9 @@ std::vector<Eigen::Vector3d> BoardPoints(const Board& board);
 
 // The corners seen in one image.
 struct BoardCorners {
-  std::vector<Eigen::Vector2d> pixels;
-  std::vector<Eigen::Vector3d> points;  // as many, in the board's frame
-  bool may_be_upside_down = false;      // as LooksTheSameUpsideDown has it
+  std::vector<Eigen::Vector2d> pixels = {};
+  std::vector<Eigen::Vector3d> points = {};  // as many, in the board's frame
+  bool may_be_upside_down = false;           // as LooksTheSameUpsideDown has it
 };
 
 // The same board read from its other end: the pixels of the first corner go to the last point, and so on.

@@ -14,7 +14,7 @@ namespace frond {
 
 // One position of the board. Either camera's corners may be empty (or all of the second's, for one camera).
 struct BundleView {
-  std::array<BoardCorners, 2> corners;
+  std::array<BoardCorners, 2> corners = {};
   Eigen::Isometry3d first_from_board = Eigen::Isometry3d::Identity();
 };
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "base/median.h"
 
@@ -30,16 +32,6 @@ std::string Number(double value) {
 
 std::string Degrees(double angle) { return Number(angle / kDegree) + " degrees"; }
 
-double SumOfDeviations(const std::vector<double>& values, std::size_t begin, std::size_t end) {
-  if (begin >= end) return 0;
-  const std::vector<double> part(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                                 values.begin() + static_cast<std::ptrdiff_t>(end));
-  const double median = Median(part);
-  double sum = 0;
-  for (const double value : part) sum += std::abs(value - median);
-  return sum;
-}
-
 double MedianOf(const std::vector<double>& values, std::size_t begin, std::size_t end) {
   return Median({values.begin() + static_cast<std::ptrdiff_t>(begin),
                  values.begin() + static_cast<std::ptrdiff_t>(end)});
@@ -56,13 +48,28 @@ double RobustSlope(const std::vector<double>& x, const std::vector<double>& y) {
   return Median(slopes);
 }
 
-std::size_t BestStep(const std::vector<double>& values, double* left) {
+// The sum of the smaller three quarters of all distances from the median, that of the first `split` values
+// and that of the others: single wrong values do not count.
+double Deviations(const std::vector<double>& values, std::size_t split) {
+  std::vector<double> distances;
+  for (const auto& [begin, end] : {std::pair(std::size_t{0}, split), std::pair(split, values.size())}) {
+    const double median = MedianOf(values, begin, end);
+    for (std::size_t k = begin; k < end; ++k) distances.push_back(std::abs(values[k] - median));
+  }
+  std::sort(distances.begin(), distances.end());
+  const auto kept = static_cast<std::ptrdiff_t>(trimmed ? (3 * distances.size() + 3) / 4 : distances.size());
+  return std::accumulate(distances.begin(), distances.begin() + kept, 0.0);
+}
+
+// Before which value a step leaves the smallest deviations, 0 where none does; at least 2 values on each
+// side.
+std::size_t BestStep(const std::vector<double>& values) {
   std::size_t best = 0;
-  *left = SumOfDeviations(values, 0, values.size());
+  double least = Deviations(values, 0, false);
   for (std::size_t k = 2; k + 2 <= values.size(); ++k) {
-    const double sum = SumOfDeviations(values, 0, k) + SumOfDeviations(values, k, values.size());
-    if (sum < *left) {
-      *left = sum;
+    const double sum = Deviations(values, k, false);
+    if (sum < least) {
+      least = sum;
       best = k;
     }
   }
@@ -140,17 +147,16 @@ AngleFindings FindAngleErrors(const std::vector<double>& angles, const std::vect
   for (const double value : values) widest = std::max(widest, std::abs(value - centre));
   if (count < 4 || widest <= threshold) return found;
 
-  const double deviations = SumOfDeviations(values, 0, count);
+  const double deviations = Deviations(values, 0, true);
   const double slope = RobustSlope(angles, values);
   std::vector<double> detrended = values;
   for (std::size_t k = 0; k < count; ++k) detrended[k] -= slope * angles[k];
-  double after_step = 0;
-  const std::size_t step = BestStep(values, &after_step);
-  if (SumOfDeviations(detrended, 0, count) < kExplains * deviations) {
+  const std::size_t step = BestStep(values);
+  if (Deviations(detrended, 0, true) < kExplains * deviations) {
     found.scale = true;
     found.factor = 1 + slope;
     values = detrended;
-  } else if (step > 0 && after_step < kExplains * deviations) {
+  } else if (step > 0 && Deviations(values, step, true) < kExplains * deviations) {
     found.step = true;
     found.step_view = step;
     found.step_size = MedianOf(values, step, count) - MedianOf(values, 0, step);
