@@ -22,7 +22,8 @@ struct DifferentialOptions {
 };
 
 // The radiometry of `model` is the modified method's; the classical one has the offset alone. A match of one
-// iteration counts as converged where the step stays within the window. Throws as WindowMatcher does.
+// iteration counts as converged where the step stays within the window. The images are those of a
+// WindowImages::Check and the model of a CheckWindowModel that passed.
 WindowMatch MatchDifferentially(const WindowImages& images, const WindowModel& model, int x, int y,
                                 const WarpValues& start, const DifferentialOptions& options);
 

@@ -5,8 +5,8 @@
 
 namespace frond {
 
-// The match at a warp as it is: the best radiometry there, noise, correlation and sigma; `converged` is left
-// false. Of too few pixels, or a flat window, `pixels` alone.
+// The match at a warp as it is: the best radiometry there, noise, correlation and sigma. Of too few pixels,
+// or a flat window, `pixels` alone, and not `converged`.
 WindowMatch DescribeWindow(const WindowImages& images, const WindowModel& model, int x, int y,
                            const WarpValues& warp);
 

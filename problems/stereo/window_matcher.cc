@@ -55,6 +55,7 @@ class Matching {
     if (!patch_.HasEnoughPixels() || !system_.SetPatch(&patch_)) return match;
     system_.Evaluate(*images_.right, warp.data(), nullptr, &samples_, &reduced_);
     match.radiometry = RadiometryAfter(Step::Zero());
+    match.converged = true;
     Describe<kWarp, kRadiometry>(patch_, samples_, reduced_, noise_, &match);
     return match;
   }
