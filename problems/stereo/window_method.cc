@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "problems/stereo/auto_diff_matcher.h"
 #include "problems/stereo/closed_form_shift.h"
 #include "problems/stereo/differential_matching.h"
 #include "problems/stereo/window_fit.h"
@@ -81,7 +82,7 @@ MatchWindow MakeMatchWindow(const WindowImages& images, const Image& right, cons
   }
   if (!solver.solver) {
     return [=](int x, int y, const WarpValues& start) {
-      return SolveWindowAutoDiff(images, model, x, y, start);
+      return MatchByAutoDiff(images, model, x, y, start);
     };
   }
   return [=](int x, int y, const WarpValues& start) {
