@@ -32,7 +32,8 @@ struct ReducedSystem {
   Eigen::Matrix<double, kP, kP> H;
   Eigen::Matrix<double, kP, kP> curvature;
   Eigen::Matrix<double, kP, 1> s;
-  double f = 0;  // squared residuals, at the best c
+  double f = 0;         // squared residuals, at the best c
+  double rounding = 0;  // f is known up to this
   Eigen::Matrix<double, kQ, 1> y;
   Eigen::Matrix<double, kQ, kP> X;
 };
@@ -98,6 +99,7 @@ class WindowSystem {
   }
 
  private:
+  static constexpr double kRounding = 1e-14;       // of Σ R², which f is a small difference to
   static constexpr double kSmallestPivot = 1e-10;  // relative: a contrast of 1e-5 of the level
   static constexpr int kXi[] = {0, 1, 0, 2, 1, 0},
                        kEta[] = {0, 0, 1, 0, 1, 2};  // powers of the disparity's terms
@@ -287,6 +289,7 @@ class WindowSystem {
     reduced->curvature = sums.curvature.template selfadjointView<Eigen::Upper>();
     reduced->s = sums.SR;
     reduced->f = sums.RR;
+    reduced->rounding = kRounding * sums.RR;
     if constexpr (kQ > 0) {
       reduced->y = factor_.solve(sums.BR);
       reduced->X = factor_.solve(sums.BS);
