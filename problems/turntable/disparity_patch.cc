@@ -3,7 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 namespace frond {
 namespace {
@@ -13,7 +13,7 @@ constexpr int kQuadraticFrom = 12, kPlaneFrom = 6;
 
 }  // namespace
 
-WindowGrid::WindowGrid(const StereoMatches& matches, int width, int height)
+DisparityGrid::DisparityGrid(const StereoMatches& matches, int width, int height)
     : matches_(matches),
       step_(std::max(1, matches.step)),
       numbers_(width / step_ + 1, height / step_ + 1, -1) {
@@ -24,7 +24,7 @@ WindowGrid::WindowGrid(const StereoMatches& matches, int width, int height)
   }
 }
 
-DisparityPatch WindowGrid::PatchAt(const MatchedWindow& window, int reach) const {
+DisparityPatch DisparityGrid::PatchAt(const MatchedWindow& window, int reach) const {
   constexpr double kMostJump = 1;  // pixels off the window's own plane: beyond an edge
   const std::array<double, 6>& own = window.match.warp;
   const double scale = std::max(1, reach * step_);
@@ -59,27 +59,7 @@ DisparityPatch WindowGrid::PatchAt(const MatchedWindow& window, int reach) const
   normal.diagonal().tail<5>().array() += 1e-6 * normal(0, 0);
   const Row c = normal.ldlt().solve(right);
   if (!c.allFinite()) return plane;
-  return {.slope_x = c[1] / scale,
-          .slope_y = c[2] / scale,
-          .xx = c[3] / (scale * scale),
-          .xy = c[4] / (scale * scale),
-          .yy = c[5] / (scale * scale)};
-}
-
-double PlaneOffset(const DisparityPatch& patch, const Mask& mask, int x, int y, int size) {
-  const int half = size / 2;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (int eta = -half; eta <= half; ++eta) {
-    for (int xi = -half; xi <= half; ++xi) {
-      if (!mask.empty() && (!mask.Contains(x + xi, y + eta) || mask(x + xi, y + eta) == 0)) continue;
-      const Eigen::Vector3d row(1, xi, eta);
-      normal += row * row.transpose();
-      right += (0.5 * patch.xx * xi * xi + patch.xy * xi * eta + 0.5 * patch.yy * eta * eta) * row;
-    }
-  }
-  const double offset = normal.ldlt().solve(right)[0];
-  return std::isfinite(offset) ? offset : 0;
+  return {.slope_x = c[1] / scale, .slope_y = c[2] / scale};
 }
 
 }  // namespace frond

@@ -65,7 +65,7 @@ std::vector<ScanPoint> ScanPair(const TurntableView& left, const TurntableView& 
   const StereoMatches matches = MatchStereo(pair.left, pair.right, pair.left_mask, pair.right_mask, match,
                                             threads, options.match_solver, {left.name, right.name});
   std::vector<ScanPoint> points =
-      TriangulateView(matches, pair, rig, options.match.window, left.angle * kRadians, number, options.cloud);
+      TriangulateView(matches, pair, rig, left.angle * kRadians, number, options.cloud);
   PairStatistics statistics = Describe(matches, points);
   statistics.left_angle = left.angle;
   statistics.right_angle = right.angle;

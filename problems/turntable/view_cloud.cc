@@ -12,10 +12,6 @@
 namespace frond {
 namespace {
 
-bool IsPlane(const WindowModel& window) {
-  return window.warp == WarpKind::kShift || window.warp == WarpKind::kLinear;
-}
-
 std::array<std::uint8_t, 3> ColourAt(const NormalPair& pair, int x, int y) {
   if (!pair.left_colour.empty()) return pair.left_colour(x, y);
   const auto grey = static_cast<std::uint8_t>(std::lround(std::clamp(pair.left(x, y), 0.0F, 255.0F)));
@@ -25,10 +21,10 @@ std::array<std::uint8_t, 3> ColourAt(const NormalPair& pair, int x, int y) {
 }  // namespace
 
 std::vector<ScanPoint> TriangulateView(const StereoMatches& matches, const NormalPair& pair,
-                                       const TurntableRig& rig, const WindowModel& window_model,
-                                       double left_angle, int view, const ViewCloudOptions& options) {
+                                       const TurntableRig& rig, double left_angle, int view,
+                                       const ViewCloudOptions& options) {
   const Rectification& normal = pair.normal;
-  const WindowGrid grid(matches, normal.width, normal.height);
+  const DisparityGrid grid(matches, normal.width, normal.height);
   const Eigen::Isometry3d disk_from_camera = rig.CameraFromDisk(left_angle).inverse();
   const Eigen::Matrix3d disk_from_normal = disk_from_camera.linear() * normal.rotation[0].transpose();
   const Eigen::Vector3d centre = disk_from_camera.translation();
@@ -36,10 +32,7 @@ std::vector<ScanPoint> TriangulateView(const StereoMatches& matches, const Norma
   for (const MatchedWindow& window : matches.windows) {
     if (window.status != WindowStatus::kAccepted) continue;
     const DisparityPatch patch = grid.PatchAt(window, options.normal_reach);
-    double disparity = window.match.warp[0];
-    if (options.unbend && IsPlane(window_model)) {
-      disparity -= PlaneOffset(patch, pair.left_mask, window.x, window.y, window_model.size);
-    }
+    const double disparity = window.match.warp[0];
     const double depth_disparity = disparity - normal.cx[0] + normal.cx[1];
     if (!(depth_disparity > 0) || !(window.match.sigma > 0)) continue;
     ScanPoint point;

@@ -13,7 +13,6 @@ namespace frond {
 struct ViewCloudOptions {
   double least_cosine = 0.15;         // more slanting windows are left out
   int normal_reach = 2;               // grid steps: a normal is that of the disparities' plane within
-  bool unbend = true;                 // take away what the window's plane is off by on a curved surface
   double height_above_disk = -1e300;  // points lower than this z are left out (the disk, a table)
 };
 
@@ -22,12 +21,8 @@ struct ViewCloudOptions {
 // (f δ₁, f δ₂, δ₀ − cx_l + cx_r − δ₁(x − cx_l) − δ₂(y − cy)) in the normal frame; the slopes are those of the
 // quadratic (or, of fewer than 12, plane) through the accepted neighbours' disparities, by 1/σ², or the
 // window's own where there are fewer than 6.
-//
-// A window of the shift or linear warp measures the mean of a curved surface, behind a bulge: of curvature
-// δ_xx + δ_yy by (n² − 1)/24 of it. `unbend` takes that away, with the quadratic's curvatures and the
-// window's own pixels inside the mask.
 std::vector<ScanPoint> TriangulateView(const StereoMatches& matches, const NormalPair& pair,
-                                       const TurntableRig& rig, const WindowModel& window, double left_angle,
-                                       int view, const ViewCloudOptions& options);
+                                       const TurntableRig& rig, double left_angle, int view,
+                                       const ViewCloudOptions& options);
 
 }  // namespace frond
