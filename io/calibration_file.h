@@ -46,14 +46,16 @@ using Calibration = std::variant<TurntableCalibration, StereoPairCalibration, Ca
 std::string FormatCalibration(const Calibration& calibration);
 void WriteCalibration(const std::filesystem::path& path, const Calibration& calibration);
 
-// By extension: calibration.json, or OpenCV's own .yml, .yaml, .xml with M1 D1 M2 D2 R T (a stereo pair) or
-// camera_matrix and distortion_coefficients (a camera). Several files are read as one, for intrinsics.yml
-// beside extrinsics.yml. OpenCV's files tell neither unit nor, of a pair, the size of its images: `unit` and,
-// where not 0, `width` and `height` are taken for it. Throws InputError naming file and key.
+// What OpenCV's files do not tell: the unit and, where they have no image_width and image_height, the size of
+// the images (0: unknown).
 struct ForeignCalibration {
   std::string unit = "mm";
   int width = 0, height = 0;
 };
+
+// By extension and content: calibration.json, or OpenCV's own .yml, .yaml, .xml, .json with M1 D1 M2 D2 R T
+// (a stereo pair) or camera_matrix and distortion_coefficients (a camera). Several of OpenCV's files are read
+// as one, for intrinsics.yml beside extrinsics.yml. Throws InputError naming file and key.
 Calibration ReadCalibration(const std::vector<std::filesystem::path>& paths,
                             const ForeignCalibration& foreign = {});
 Calibration ReadCalibration(const std::filesystem::path& path, const ForeignCalibration& foreign = {});
