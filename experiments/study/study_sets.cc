@@ -10,6 +10,7 @@ const std::vector<ProblemSetType>& StudySetTypes() {
     std::vector<ProblemSetType> list = StandardSetTypes();
     list.push_back(LeafWeightsSetType());
     list.push_back(SheetSetType());
+    list.push_back(StereoWindowsSetType());
     std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
     return list;
   }();

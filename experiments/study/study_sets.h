@@ -17,4 +17,7 @@ ProblemSetType LeafWeightsSetType();
 // `sheet`: the distance fit of a small NURBS surface over a scan.
 ProblemSetType SheetSetType();
 
+// `stereo_windows`: sub-pixel windows of a synthetic pair, whose true disparity their metrics know.
+ProblemSetType StereoWindowsSetType();
+
 }  // namespace frond

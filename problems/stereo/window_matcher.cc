@@ -83,7 +83,7 @@ class Matching {
       const RadiometryValues radiometry = RadiometryAfter(step);
       const bool near = LargestChange(step) < kNewtonStep;
       system_.Evaluate(*images_.right, trial.data(), near ? radiometry.data() : nullptr, &samples_, &next);
-      if (next.f <= reduced_.f * (1 + kRounding)) {
+      if (next.f <= reduced_.f + next.rounding) {
         match->warp = trial;
         reduced_ = next;
         damping = damping <= kFirstDamping ? 0 : damping / 10;
@@ -127,8 +127,6 @@ class Matching {
     }
     return values;
   }
-
-  static constexpr double kRounding = 1e-12;  // of a cost
 
   const WindowImages& images_;
   const WindowModel& model_;

@@ -32,7 +32,8 @@ struct ReducedSystem {
   Eigen::Matrix<double, kP, kP> H;
   Eigen::Matrix<double, kP, kP> curvature;
   Eigen::Matrix<double, kP, 1> s;
-  double f = 0;  // squared residuals, at the best c
+  double f = 0;         // squared residuals, at the best c
+  double rounding = 0;  // f is known up to this
   Eigen::Matrix<double, kQ, 1> y;
   Eigen::Matrix<double, kQ, kP> X;
 };
@@ -98,6 +99,7 @@ class WindowSystem {
   }
 
  private:
+  static constexpr double kRounding = 1e-14;       // of Σ R², which f is a small difference to
   static constexpr double kSmallestPivot = 1e-10;  // relative: a contrast of 1e-5 of the level
   static constexpr int kXi[] = {0, 1, 0, 2, 1, 0},
                        kEta[] = {0, 0, 1, 0, 1, 2};  // powers of the disparity's terms
@@ -176,84 +178,96 @@ class WindowSystem {
     }
   }
 
-  // In a row η is constant and all products are of powers of ξ with 5 sums: Σ g² ξᵏ, Σ g R ξᵏ, Σ g L ξᵏ, Σ g
-  // ξᵏ and Σ R L ξᵏ, g the slope.
-  void AddRow(int row, const WindowSamples& samples, Sums* sums) const {
-    const int begin = row * patch_->stride;
-    Lane gg[2 * kD + 1], gr[kD + 1], gl[kD + kE + 1], g1[kD + 1], rl[kE + 1], r1, rr;
-    for (Lane& lane : gg) lane.setZero();
-    for (Lane& lane : gr) lane.setZero();
-    for (Lane& lane : gl) lane.setZero();
-    for (Lane& lane : g1) lane.setZero();
-    for (Lane& lane : rl) lane.setZero();
-    r1.setZero();
-    rr.setZero();
-    Lane rc[2 * kD + 1];
-    for (Lane& lane : rc) lane.setZero();
-    const double eta = row - patch_->half;
-    const bool with_curvature = radiometry_ != nullptr;
-    Lane gain, offset, gain_slope;
-    gain.setOnes();
-    offset.setZero();
-    gain_slope.setZero();
+  // In a row η is constant and all products are of powers of ξ with 6 sums, g the slope, q the residual times
+  // ∂²R/∂x²; even pixels and odd ones apart.
+  struct RowSums {
+    Lane gg[2 * kD + 1], gr[kD + 1], gl[kD + kE + 1], g1[kD + 1], rl[kE + 1], q[2 * kD + 1], r1, rr;
+
+    RowSums() {
+      for (Lane& lane : gg) lane.setZero();
+      for (Lane& lane : gr) lane.setZero();
+      for (Lane& lane : gl) lane.setZero();
+      for (Lane& lane : g1) lane.setZero();
+      for (Lane& lane : rl) lane.setZero();
+      for (Lane& lane : q) lane.setZero();
+      r1.setZero();
+      rr.setZero();
+    }
+  };
+
+  // Residual = r − offset − (gain + gain_slope ξ) l.
+  struct RowRadiometry {
+    double gain = 0, offset = 0, gain_slope = 0;
+  };
+
+  RowRadiometry RadiometryOfRow(double eta) const {
+    RowRadiometry row;
     if constexpr (kQ > 0) {
-      if (with_curvature) {
-        gain = radiometry_[0];
-        offset = radiometry_[1];
-        if constexpr (kE > 0) gain += radiometry_[3] * eta, gain_slope = radiometry_[2];
+      if (radiometry_ != nullptr) {
+        row = {.gain = radiometry_[0] + (kE > 0 ? radiometry_[3] * eta : 0),
+               .offset = radiometry_[1],
+               .gain_slope = kE > 0 ? radiometry_[2] : 0};
       }
     }
+    return row;
+  }
+
+  void AddRow(int row, const WindowSamples& samples, Sums* sums) const {
+    const int begin = row * patch_->stride;
+    const double eta = row - patch_->half;
+    const bool with_curvature = radiometry_ != nullptr;
+    const RowRadiometry radiometry = RadiometryOfRow(eta);
+    RowSums of_row;
     Lane xi(-patch_->half, 1 - patch_->half);
     for (int i = begin; i < begin + patch_->stride; i += 2, xi += 2) {
       const Lane g = Eigen::Map<const Lane, Eigen::Aligned16>(samples.slope + i);
       const Lane r = Eigen::Map<const Lane, Eigen::Aligned16>(samples.value + i);
-      AddPowers(g * g, xi, gg);
-      AddPowers(g * r, xi, gr);
-      rr += r * r;
-      if (with_curvature) {
-        const Lane c = Eigen::Map<const Lane, Eigen::Aligned16>(samples.curvature + i);
-        if constexpr (kQ > 0) {
-          const Lane l = Eigen::Map<const Lane, Eigen::Aligned16>(patch_->level + i);
-          AddPowers(c * (r - offset - (gain + gain_slope * xi) * l), xi, rc);
-        } else {
-          AddPowers(c * r, xi, rc);
-        }
-      }
+      AddPowers(g * g, xi, of_row.gg);
+      AddPowers(g * r, xi, of_row.gr);
+      of_row.rr += r * r;
+      Lane residual = r;
       if constexpr (kQ > 0) {
         const Lane l = Eigen::Map<const Lane, Eigen::Aligned16>(patch_->level + i);
-        AddPowers(g * l, xi, gl);
-        AddPowers(g, xi, g1);
-        AddPowers(r * l, xi, rl);
-        r1 += r;
+        AddPowers(g * l, xi, of_row.gl);
+        AddPowers(g, xi, of_row.g1);
+        AddPowers(r * l, xi, of_row.rl);
+        of_row.r1 += r;
+        residual -= radiometry.offset + (radiometry.gain + radiometry.gain_slope * xi) * l;
+      }
+      if (with_curvature) {
+        AddPowers(Eigen::Map<const Lane, Eigen::Aligned16>(samples.curvature + i) * residual, xi, of_row.q);
       }
     }
+    AddRowSums(of_row, eta, sums);
+  }
 
+  static void AddRowSums(const RowSums& row, double eta, Sums* sums) {
     for (int j = 0; j < kP; ++j) {
       for (int i = 0; i <= j; ++i) {
         const double power = Power(eta, kEta[i]) * Power(eta, kEta[j]);
-        sums->SS(i, j) += gg[kXi[i] + kXi[j]].sum() * power;
-        sums->curvature(i, j) += rc[kXi[i] + kXi[j]].sum() * power;
+        sums->SS(i, j) += row.gg[kXi[i] + kXi[j]].sum() * power;
+        sums->curvature(i, j) += row.q[kXi[i] + kXi[j]].sum() * power;
       }
       const double power = Power(eta, kEta[j]);
-      sums->SR[j] += gr[kXi[j]].sum() * power;
+      sums->SR[j] += row.gr[kXi[j]].sum() * power;
       if constexpr (kQ >= 2) {
-        sums->BS(0, j) += gl[kXi[j]].sum() * power;
-        sums->BS(1, j) += g1[kXi[j]].sum() * power;
+        sums->BS(0, j) += row.gl[kXi[j]].sum() * power;
+        sums->BS(1, j) += row.g1[kXi[j]].sum() * power;
       }
       if constexpr (kQ == 4) {
-        sums->BS(2, j) += gl[kXi[j] + 1].sum() * power;
-        sums->BS(3, j) += gl[kXi[j]].sum() * power * eta;
+        sums->BS(2, j) += row.gl[kXi[j] + 1].sum() * power;
+        sums->BS(3, j) += row.gl[kXi[j]].sum() * power * eta;
       }
     }
     if constexpr (kQ >= 2) {
-      sums->BR[0] += rl[0].sum();
-      sums->BR[1] += r1.sum();
+      sums->BR[0] += row.rl[0].sum();
+      sums->BR[1] += row.r1.sum();
     }
     if constexpr (kQ == 4) {
-      sums->BR[2] += rl[1].sum();
-      sums->BR[3] += rl[0].sum() * eta;
+      sums->BR[2] += row.rl[1].sum();
+      sums->BR[3] += row.rl[0].sum() * eta;
     }
-    sums->RR += rr.sum();
+    sums->RR += row.rr.sum();
   }
 
   template <std::size_t kCount>
@@ -287,6 +301,7 @@ class WindowSystem {
     reduced->curvature = sums.curvature.template selfadjointView<Eigen::Upper>();
     reduced->s = sums.SR;
     reduced->f = sums.RR;
+    reduced->rounding = kRounding * sums.RR;
     if constexpr (kQ > 0) {
       reduced->y = factor_.solve(sums.BR);
       reduced->X = factor_.solve(sums.BS);

@@ -137,7 +137,7 @@ TEST(StudyCommand, List_NamesTheSetsAndTheOptionsOfEach) {
   const ProgramResult all = RunFrond({"list"}, folder.path());
   const ProgramResult sets = RunFrond({"list", "sets"}, folder.path());
   EXPECT_EQ(sets.exit_code, 0) << sets.err;
-  for (const char* set : {"functions", "leaf_weights", "more_wild", "nist", "sheet"}) {
+  for (const char* set : {"functions", "leaf_weights", "more_wild", "nist", "sheet", "stereo_windows"}) {
     EXPECT_TRUE(Holds(all.out, set));
     EXPECT_TRUE(Holds(sets.out, set));
   }

@@ -110,6 +110,8 @@ const ShippedStudyCase kStudies[] = {
     {"study/nist.yaml", 27 * 2 * 3, "budget.evaluations=300; problems.nist.problem=misra1a", 2 * 3},
     {"study/nist_random_starts.yaml", 27 * 3 * 100,
      "study.repetitions=2; budget.evaluations=300; problems.nist.problem=misra1a", 3 * 2},
+    {"study/stereo_windows.yaml", 2 * 40 * 4 * 15,
+     "study.repetitions=1; budget.evaluations=300; problems.near.windows=1; problems.far.windows=1", 2 * 4},
     {"study/swarms.yaml", 3 * 28 * 20, "study.repetitions=1; budget.evaluations=300", 3 * 28},
 };
 void PrintTo(const ShippedStudyCase& study, std::ostream* out) { *out << study.path; }
