@@ -78,6 +78,9 @@ std::vector<OptionSpec> StereoMatchSpecs(const std::string& prefix) {
       NumberSpec(prefix + "discontinuity", defaults.discontinuity, 0, kFar,
                  "Departure of disparities from a window's plane, in pixels, that tells an edge in depth; 0: "
                  "no such check"),
+      FlagSpec(prefix + "curvature", defaults.curvature,
+               "Take off the bias that the planes of a linear warp have on a curved surface, by the "
+               "disparities of the windows round each"),
       FlagSpec(prefix + "interpolate", defaults.interpolate,
                "A disparity for the pixels between accepted windows too"),
   };
@@ -115,6 +118,7 @@ StereoMatchOptions StereoMatchOptionsFrom(const Options& options, const std::str
   match.max_sigma = options.Number(prefix + "max_sigma");
   match.left_right = options.Number(prefix + "left_right");
   match.discontinuity = options.Number(prefix + "discontinuity");
+  match.curvature = options.Flag(prefix + "curvature");
   match.interpolate = options.Flag(prefix + "interpolate");
   return match;
 }

@@ -23,7 +23,7 @@ enum class MatchStart { kSgbm, kPyramid };
 
 // Defaults suit the turntable and any rectified pair. Lengths are pixels of the normal images.
 struct StereoMatchOptions {
-  WindowModel window = {};
+  WindowModel window = {.smoothing = 0.7};
   // false: the images are not normal (a deformed specimen): displacements in x and y by the affine warp.
   bool rectified = true;
   int step = 4;  // between the centres of windows, both ways
@@ -40,6 +40,7 @@ struct StereoMatchOptions {
   double max_sigma = 0.2;        // of the disparity
   double left_right = 0.5;       // largest difference of the match back from the right image; 0: no check
   double discontinuity = 1;      // largest departure of the start's disparities from the window's plane
+  bool curvature = true;         // of a linear warp: the bias of planes on curved surfaces is taken off
   bool interpolate = true;       // between accepted windows
 };
 

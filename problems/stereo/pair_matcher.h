@@ -41,6 +41,7 @@ class PairMatcher {
   // From `start`, judged by every test that `options` asks for.
   MatchedWindow MatchFrom(int x, int y, const WarpValues& start) const;
 
+  const Image& left() const { return left_; }  // smoothed
   const StartMap& starts() const { return starts_; }
 
  private:

@@ -7,6 +7,7 @@
 
 #include "base/errors.h"
 #include "base/parallel.h"
+#include "problems/stereo/curvature_bias.h"
 #include "problems/stereo/dense_disparity.h"
 #include "problems/stereo/pair_checks.h"
 #include "problems/stereo/pair_matcher.h"
@@ -83,6 +84,9 @@ StereoMatches MatchStereo(const Image& left, const Image& right, const Mask& lef
   const PairMatcher matcher(left, right, left_mask, right_mask, options, solver, std::move(starts));
   GridOfWindows grid = MakeGrid(left, left_mask, options.step);
   MatchGrid(matcher, options, threads, grid);
+  if (options.curvature) {
+    RemoveCurvatureBias(grid.index, matcher.left(), left_mask, options, threads, grid.windows);
+  }
   StereoMatches matches{.step = options.step, .windows = std::move(grid.windows)};
   for (const MatchedWindow& window : matches.windows) {
     ++matches.counts[static_cast<std::size_t>(window.status)];
