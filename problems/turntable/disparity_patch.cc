@@ -13,7 +13,7 @@ constexpr int kQuadraticFrom = 12, kPlaneFrom = 6;
 
 }  // namespace
 
-WindowGrid::WindowGrid(const StereoMatches& matches, int width, int height)
+AcceptedWindows::AcceptedWindows(const StereoMatches& matches, int width, int height)
     : matches_(matches),
       step_(std::max(1, matches.step)),
       numbers_(width / step_ + 1, height / step_ + 1, -1) {
@@ -24,7 +24,7 @@ WindowGrid::WindowGrid(const StereoMatches& matches, int width, int height)
   }
 }
 
-DisparityPatch WindowGrid::PatchAt(const MatchedWindow& window, int reach) const {
+DisparityPatch AcceptedWindows::PatchAt(const MatchedWindow& window, int reach) const {
   constexpr double kMostJump = 1;  // pixels off the window's own plane: beyond an edge
   const std::array<double, 6>& own = window.match.warp;
   const double scale = std::max(1, reach * step_);

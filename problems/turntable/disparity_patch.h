@@ -13,9 +13,9 @@ struct DisparityPatch {
 };
 
 // The accepted windows of a pair by their place in the grid.
-class WindowGrid {
+class AcceptedWindows {
  public:
-  WindowGrid(const StereoMatches& matches, int width, int height);
+  AcceptedWindows(const StereoMatches& matches, int width, int height);
 
   // Through the accepted windows within `reach` steps that lie on the same surface, weighted by 1/σ²: a
   // quadratic from 12 of them, a plane from 6, else the window's own plane.

@@ -48,8 +48,6 @@ double RobustSlope(const std::vector<double>& x, const std::vector<double>& y) {
   return Median(slopes);
 }
 
-// The sum of the smaller three quarters of all distances from the median, that of the first `split` values
-// and that of the others: single wrong values do not count.
 // The sum of all distances from the median, or of the smaller three quarters, that of the first `split`
 // values and that of the others: trimmed, single wrong values do not count.
 double Deviations(const std::vector<double>& values, std::size_t split, bool trimmed) {

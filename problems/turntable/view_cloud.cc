@@ -28,7 +28,7 @@ std::vector<ScanPoint> TriangulateView(const StereoMatches& matches, const Norma
                                        const TurntableRig& rig, const WindowModel& window_model,
                                        double left_angle, int view, const ViewCloudOptions& options) {
   const Rectification& normal = pair.normal;
-  const WindowGrid grid(matches, normal.width, normal.height);
+  const AcceptedWindows grid(matches, normal.width, normal.height);
   const Eigen::Isometry3d disk_from_camera = rig.CameraFromDisk(left_angle).inverse();
   const Eigen::Matrix3d disk_from_normal = disk_from_camera.linear() * normal.rotation[0].transpose();
   const Eigen::Vector3d centre = disk_from_camera.translation();

@@ -13,7 +13,7 @@ namespace frond {
 struct ViewCloudOptions {
   double least_cosine = 0.15;         // more slanting windows are left out
   int normal_reach = 2;               // grid steps: a normal is that of the disparities' plane within
-  bool unbend = true;                 // take away what the window's plane is off by on a curved surface
+  bool unbend = false;                // take away what the window's plane is off by on a curved surface
   double height_above_disk = -1e300;  // points lower than this z are left out (the disk, a table)
 };
 
