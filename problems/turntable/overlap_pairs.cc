@@ -48,9 +48,11 @@ std::vector<PlaneRow> RowsOf(const std::vector<ScanPoint>& first, const MovedVie
   const double reach = options.reach * moved_second.spacing;
   std::vector<PlaneRow> rows;
   for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i].cosine < options.least_cosine) continue;
     const KdTree::Neighbour nearest = moved_second.tree->Nearest(moved_first.positions[i]);
     if (nearest.squared_distance > reach * reach) continue;
     const std::size_t k = nearest.index;
+    if (second[k].cosine < options.least_cosine) continue;
     if (moved_first.normals[i].dot(moved_second.normals[k]) < kNormalAgreement) continue;
     // At the end of what the other view saw the nearest point is no foot.
     const Eigen::Vector3d gap = moved_first.positions[i] - moved_second.positions[k];

@@ -10,13 +10,14 @@
 
 namespace frond {
 
-// Row i: r = (R_b n) · (T_a p − T_b q) / σ, with p of view a, q and its normal n of view b, and the views'
-// motions T x = centre + R (x − centre) + t. Parameter blocks: a's motion, b's; 6 values each, R's axis times
-// its angle (radians), then t; or 1, the angle about z.
+// Row i: r = share · (R_b n) · (T_a p − T_b q) / σ, with p of view a, q and its normal n of view b, and the
+// views' motions T x = centre + R (x − centre) + t. Parameter blocks: a's motion, b's; 6 values each, R's
+// axis times its angle (radians), then t; or 1, the angle about z.
 template <int kSize>
 struct PointToPlaneResidual {
   const std::vector<PlaneRow>* rows;
   Eigen::Vector3d centre;
+  double share = 1;  // √ of what a row counts as
 
   template <typename T>
   bool operator()(int i, const T* first, const T* second, T* residual) const {
@@ -31,7 +32,7 @@ struct PointToPlaneResidual {
       if constexpr (kSize == 6) gap += first[3 + k] - second[3 + k];
       residual[0] += n[k] * gap;
     }
-    residual[0] /= row.sigma;
+    residual[0] *= share / row.sigma;
     return true;
   }
 

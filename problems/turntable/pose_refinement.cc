@@ -87,10 +87,12 @@ class Refiner {
                                    new PriorResidual<kSize>{total_[v], deviation_}),
                                nullptr, x[v].data());
     }
-    const RobustLoss loss{RobustLossType::kHuber, kHuber};
     for (const OverlapPair& overlap : overlaps) {
       using Cost = CompressedAutoDiffCostFunction<PointToPlaneResidual<kSize>, 1, kSize, kSize>;
-      problem.AddResidualBlock(new Cost(PointToPlaneResidual<kSize>{&overlap.rows, centre_},
+      const auto count = static_cast<double>(overlap.rows.size());
+      const double share = std::sqrt(std::min(1.0, options_.independent_points / count));
+      const RobustLoss loss{RobustLossType::kHuber, kHuber * share};
+      problem.AddResidualBlock(new Cost(PointToPlaneResidual<kSize>{&overlap.rows, centre_, share},
                                         static_cast<int>(overlap.rows.size()), loss),
                                nullptr, x[overlap.first].data(), x[overlap.second].data());
     }

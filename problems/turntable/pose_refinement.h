@@ -20,8 +20,10 @@ struct PoseRefinementOptions {
                                          // body of revolution says nothing about the angle)
   double position_deviation = 0.002;     // share of the object's size
   std::size_t points_per_overlap = 400;  // at most, of each two views
-  int repetitions = 6;                   // of finding the nearest points
-  double reach = 3;                      // in spacings: how far apart two views of one surface may be
+  double independent_points = 20;        // what the points of an overlap count as: their errors go together
+  double least_cosine = 0.4;  // of the viewing angle: slanting windows are off by more than their σ
+  int repetitions = 6;        // of finding the nearest points
+  double reach = 3;           // in spacings: how far apart two views of one surface may be
 };
 
 // How two views' points of the same surface lie to each other, over all overlaps.

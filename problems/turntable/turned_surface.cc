@@ -51,16 +51,19 @@ void AddWarnings(const std::array<PoleCap, 2>& caps, SurfaceFit* fit) {
       fit->warnings.push_back(
           end + " is not seen and its rim does not tell its shape; the surface there is a guess");
     } else if (!caps[k].points.empty()) {
-      fit->warnings.push_back(end + " is not seen within " +
-                              std::to_string(static_cast<int>(std::ceil(caps[k].opening * kDegrees))) +
-                              " degrees of the axis; the surface there continues the ring around it");
+      fit->warnings.push_back(
+          end + " is not seen within " +
+          std::to_string(static_cast<int>(std::ceil(caps[k].opening * kDegrees))) +
+          " degrees of the axis; the surface there " +
+          (caps[k].silhouettes ? "follows the silhouettes" : "continues the ring around it"));
     }
   }
 }
 
 }  // namespace
 
-TurnedSurfaceFit FitTurnedSurface(std::span<const Eigen::Vector3d> points, SurfaceFitOptions options,
+TurnedSurfaceFit FitTurnedSurface(std::span<const Eigen::Vector3d> points,
+                                  std::span<const TangentPlane> silhouettes, SurfaceFitOptions options,
                                   const Solver& solver, const Budget& budget, const SolveContext& context) {
   if (points.empty()) throw InputError("the cloud of the turn has no points to fit a surface to");
   options.topology = SurfaceTopology::kSphere;
@@ -73,7 +76,13 @@ TurnedSurfaceFit FitTurnedSurface(std::span<const Eigen::Vector3d> points, Surfa
   if (options.base == BaseSurface::kAuto) {
     options.base = IsStarShaped(local) ? BaseSurface::kSphere : BaseSurface::kCylinder;
   }
-  std::array<PoleCap, 2> caps{CloseUnseenPole(local, -1), CloseUnseenPole(local, 1)};
+  std::vector<TangentPlane> planes;
+  planes.reserve(silhouettes.size());
+  for (const TangentPlane& plane : silhouettes) {
+    planes.push_back(
+        {from_disk.linear() * plane.normal, plane.offset - plane.normal.dot(to_disk.translation())});
+  }
+  std::array<PoleCap, 2> caps{CloseUnseenPole(local, planes, -1), CloseUnseenPole(local, planes, 1)};
   std::vector<Eigen::Vector3d> closed = local;
   for (const PoleCap& cap : caps) closed.insert(closed.end(), cap.points.begin(), cap.points.end());
   SurfaceFit fit = FitSurface(closed, {}, std::nullopt, options, solver, budget, context);

@@ -7,6 +7,7 @@
 
 #include "models/nurbs_surface.h"
 #include "problems/surface/surface_fit.h"
+#include "problems/turntable/silhouette_planes.h"
 
 namespace frond {
 
@@ -20,9 +21,11 @@ struct TurnedSurfaceFit {
 // The closed NURBS surface of an object on a turning disk, from points in the disk's frame: poles along the
 // axis, where a camera at the side sees neither the top nor what the object stands on. Holes there are closed
 // by CloseUnseenPole's points, of which fit.warnings tells; the fit's quality, errors and distances are those
-// of the points given alone. FitSurface's frame is the disk's with x up and the origin inside the object.
-// options.topology is set to kSphere. Throws as FitSurface.
-TurnedSurfaceFit FitTurnedSurface(std::span<const Eigen::Vector3d> points, SurfaceFitOptions options,
+// of the points given alone. `silhouettes`: planes that touch the object, in the disk's frame; may be empty.
+// FitSurface's frame is the disk's with x up and the origin inside the object. options.topology is set to
+// kSphere. Throws as FitSurface.
+TurnedSurfaceFit FitTurnedSurface(std::span<const Eigen::Vector3d> points,
+                                  std::span<const TangentPlane> silhouettes, SurfaceFitOptions options,
                                   const Solver& solver, const Budget& budget, const SolveContext& context);
 
 }  // namespace frond

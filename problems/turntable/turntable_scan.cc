@@ -98,6 +98,9 @@ TurntableScan ScanTurntable(std::vector<TurntableView> views, const TurntableRig
   const std::vector<ViewPair> pairs = PairsOf(views, rig, options.pairs);
   FindMissingMasks(options.mask, threads, &views);
   scan.cylinder = options.cylinder ? *options.cylinder : CylinderOfSilhouettes(views, rig);
+  if (options.mask.background != BackgroundKind::kNone) {
+    scan.silhouettes = PlanesOfSilhouettes(views, rig, threads);
+  }
   clock.End("masks");
 
   std::vector<std::vector<ScanPoint>> clouds;

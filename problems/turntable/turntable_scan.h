@@ -14,6 +14,7 @@
 #include "problems/stereo/stereo_matcher.h"
 #include "problems/turntable/object_mask.h"
 #include "problems/turntable/pose_refinement.h"
+#include "problems/turntable/silhouette_planes.h"
 #include "problems/turntable/turntable_view.h"
 #include "problems/turntable/view_cloud.h"
 #include "problems/turntable/view_images.h"
@@ -48,7 +49,8 @@ struct TurntableScan {
   MergedCloud cloud;  // in the disk's frame
   std::vector<PairStatistics> pairs;
   BoundingCylinder cylinder;
-  OverlapErrors overlap;  // as merged
+  std::vector<TangentPlane> silhouettes;  // for the closed surface (turned_surface.h)
+  OverlapErrors overlap;                  // as merged
   std::optional<PoseRefinement> refinement;
   std::vector<StageTime> stages;
   std::vector<std::string> warnings;

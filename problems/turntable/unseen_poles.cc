@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problems/turntable/unseen_poles.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,11 +9,11 @@
 
 #include "base/median.h"
 #include "models/kd_tree.h"
+#include "problems/turntable/end_quadric.h"
 
 namespace frond {
 namespace {
 
-using Row = Eigen::Matrix<double, 9, 1>;
 using Points = std::vector<Eigen::Vector3d>;
 constexpr double kBand = 30 * std::numbers::pi / 180;
 constexpr double kCovered = 3;  // spacings from the cloud within which the surface is seen
@@ -42,84 +41,85 @@ double InnerAngle(std::span<const Eigen::Vector3d> points, double end) {
   return angles[few];
 }
 
-// F(x, y, z) of the header, in a unit in which the points are about 1 from the origin.
-class Quadric {
- public:
-  static std::optional<Quadric> Through(const Points& points) {
-    constexpr std::size_t kLeast = 40;
-    if (points.size() < kLeast) return std::nullopt;
-    Quadric quadric;
-    for (const Eigen::Vector3d& p : points) quadric.scale_ = std::max(quadric.scale_, p.norm());
-    Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
-    Row right = Row::Zero();
-    for (const Eigen::Vector3d& point : points) {
-      const Eigen::Vector3d p = point / quadric.scale_;
-      Row row;
-      row << p.y() * p.y() - p.z() * p.z(), p.y() * p.z(), p.y(), p.z(), p.x(), p.x() * p.x(), p.x() * p.y(),
-          p.x() * p.z(), 1;
-      normal += row * row.transpose();
-      right -= (p.y() * p.y() + p.z() * p.z()) * row;
-    }
-    quadric.c_ = normal.ldlt().solve(right);
-    if (!quadric.c_.allFinite()) return std::nullopt;
-    return quadric;
-  }
-
-  // x at (y, z) where the surface faces the end.
-  std::optional<double> At(double y, double z, double end) const {
-    y /= scale_;
-    z /= scale_;
-    const double square = c_[5], linear = c_[4] + c_[6] * y + c_[7] * z;
-    const double rest =
-        y * y + z * z + c_[0] * (y * y - z * z) + c_[1] * y * z + c_[2] * y + c_[3] * z + c_[8];
-    const double root = linear * linear - 4 * square * rest;
-    if (!(root > 0)) return std::nullopt;
-    // There ∂F/∂x = 2 square x + linear = ±√root, outwards where it has the end's sign.
-    const double slope = end * std::sqrt(root);
-    if (std::abs(linear + slope) < 1e-12) return std::nullopt;
-    // The same root as (slope − linear) / (2 square), also where the square term vanishes.
-    return scale_ * -2 * rest / (linear + slope);
-  }
-
- private:
-  double scale_ = 0;
-  Row c_ = Row::Zero();
+// The points about an end, between its hole and kBand beyond it.
+struct Rim {
+  double outer = 0;    // radians
+  double radius = 0;   // from the axis, largest
+  double highest = 0;  // along the axis
+  Points points = {};
 };
 
-}  // namespace
-
-PoleCap CloseUnseenPole(std::span<const Eigen::Vector3d> points, double end) {
-  PoleCap cap;
-  if (points.size() < 10) return cap;
-  const KdTree tree(points);
-  const double spacing = SpacingOf(points, tree), inner = InnerAngle(points, end);
-  Points band;
-  double radius = 0, highest = 0;
+Rim RimOf(std::span<const Eigen::Vector3d> points, double end) {
+  Rim rim{.outer = InnerAngle(points, end) + kBand};
   for (const Eigen::Vector3d& p : points) {
-    if (AngleFrom(p, end) > inner + kBand) continue;
-    band.push_back(p);
-    radius = std::max(radius, std::hypot(p.y(), p.z()));
-    highest = std::max(highest, end * p.x());
+    if (AngleFrom(p, end) > rim.outer) continue;
+    rim.points.push_back(p);
+    rim.radius = std::max(rim.radius, std::hypot(p.y(), p.z()));
+    rim.highest = std::max(rim.highest, end * p.x());
   }
-  const std::optional<Quadric> quadric = Quadric::Through(band);
-  if (!quadric || !(spacing > 0)) return {.closable = false};
-  const auto steps = static_cast<int>(std::min(radius / spacing, 500.0));
+  return rim;
+}
+
+// By silhouettes, which real images may bend at the foot (a shadow, the disk's edge): it has to meet the
+// points next to the hole, within 1/50 of the rim's radius in median.
+std::optional<EndQuadric> TouchingQuadric(std::span<const TangentPlane> planes, const Rim& rim, double end) {
+  constexpr double kPlanesWithin = 0.64;  // cos 50°
+  constexpr double kMostGap = 1.0 / 50;
+  std::vector<TangentPlane> near;
+  for (const TangentPlane& plane : planes) {
+    if (end * plane.normal.x() > kPlanesWithin) near.push_back(plane);
+  }
+  std::optional<EndQuadric> quadric = QuadricTouching(near);
+  if (!quadric) return std::nullopt;
+  std::vector<double> gaps;
+  for (const Eigen::Vector3d& p : rim.points) {
+    if (AngleFrom(p, end) > rim.outer - 0.8 * kBand) continue;
+    // First-order distance of the point.
+    const double value = p.dot(quadric->a * p) + 2 * quadric->b.dot(p) + quadric->c;
+    gaps.push_back(std::abs(value) / (2 * (quadric->a * p + quadric->b).norm()));
+  }
+  if (gaps.empty() || Median(std::move(gaps)) > kMostGap * rim.radius) return std::nullopt;
+  return quadric;
+}
+
+// Where the cloud leaves the quadric's end open.
+PoleCap CapOn(const EndQuadric& quadric, const Rim& rim, const KdTree& tree, double spacing, double end) {
+  PoleCap cap;
+  const auto steps = static_cast<int>(std::min(rim.radius / spacing, 500.0));
   for (int i = -steps; i <= steps; ++i) {
     for (int k = -steps; k <= steps; ++k) {
       const double y = i * spacing, z = k * spacing;
-      const std::optional<double> x = quadric->At(y, z, end);
+      const std::optional<double> x = quadric.At(y, z, end);
       if (!x) continue;
       const Eigen::Vector3d p(*x, y, z);
-      if (AngleFrom(p, end) > inner + kBand) continue;
+      if (AngleFrom(p, end) > rim.outer) continue;
       if (tree.Nearest(p).squared_distance < kCovered * kCovered * spacing * spacing) continue;
       cap.points.push_back(p);
       cap.opening = std::max(cap.opening, AngleFrom(p, end));
       // A cap higher over its rim than that is wide is a guess too far.
-      if (end * *x > highest + radius) cap.closable = false;
+      if (end * *x > rim.highest + rim.radius) cap.closable = false;
     }
   }
   if (!cap.closable) cap.points.clear();
   return cap;
+}
+
+}  // namespace
+
+PoleCap CloseUnseenPole(std::span<const Eigen::Vector3d> points, std::span<const TangentPlane> planes,
+                        double end) {
+  if (points.size() < 10) return {.closable = false};
+  const KdTree tree(points);
+  const double spacing = SpacingOf(points, tree);
+  if (!(spacing > 0)) return {.closable = false};
+  const Rim rim = RimOf(points, end);
+  if (const std::optional<EndQuadric> touching = TouchingQuadric(planes, rim, end)) {
+    PoleCap cap = CapOn(*touching, rim, tree, spacing, end);
+    cap.silhouettes = true;
+    if (cap.closable) return cap;
+  }
+  const std::optional<EndQuadric> through = QuadricThrough(rim.points);
+  return through ? CapOn(*through, rim, tree, spacing, end) : PoleCap{.closable = false};
 }
 
 }  // namespace frond

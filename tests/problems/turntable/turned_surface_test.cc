@@ -53,7 +53,7 @@ TurnedSurfaceFit FitPear(double cut_degrees, double noise, std::array<int, 2> ne
   SurfaceFitOptions options;
   options.control_points = net;
   options.topology = SurfaceTopology::kSphere;
-  return FitTurnedSurface(points, options, *LevenbergMarquardt(options), {}, {.threads = 2, .seed = 1});
+  return FitTurnedSurface(points, {}, options, *LevenbergMarquardt(options), {}, {.threads = 2, .seed = 1});
 }
 
 TEST(TurnedSurface, UnseenPoles_AreClosedWithinThreeThousandthsOfTheHeight) {
