@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -201,10 +202,11 @@ ColouredCloud CloudOf(const MergedCloud& merged) {
   return cloud;
 }
 
-void FitSurfaceOf(const RunInput& input, const Options& problem, const Solver& solver, const Budget& budget,
-                  const RunContext& context, FitOutcome* outcome) {
+void FitSurfaceOf(const RunInput& input, std::span<const TangentPlane> silhouettes, const Options& problem,
+                  const Solver& solver, const Budget& budget, const RunContext& context,
+                  FitOutcome* outcome) {
   TurnedSurfaceFit fit =
-      FitTurnedSurface(outcome->cloud->points, SurfaceOptions(problem), solver, budget, context);
+      FitTurnedSurface(outcome->cloud->points, silhouettes, SurfaceOptions(problem), solver, budget, context);
   SetSurfaceFit(fit.fit, outcome);
   SetUncertainty(fit.fit.uncertainty, fit.to_disk, outcome);
   outcome->surface = std::move(fit.surface);
@@ -246,7 +248,9 @@ FitOutcome Run(const RunInput& run_input, const Options& problem, const Solver& 
   }
   if (problem.Flag("fit_surface")) {
     if (context.progress) context.progress("surface");
-    NameErrors(list, [&] { FitSurfaceOf(run_input, problem, solver, budget, context, &outcome); });
+    NameErrors(list, [&] {
+      FitSurfaceOf(run_input, scan->silhouettes, problem, solver, budget, context, &outcome);
+    });
   }
   return outcome;
 }

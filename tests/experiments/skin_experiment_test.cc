@@ -21,7 +21,7 @@ FitOutcome Skinned(std::vector<Eigen::Vector3d> points) {
   input.cloud.points = std::move(points);
   const SolverType& type = FindSolverType("lm");
   return SkinFitType().run(input, Options(SkinFitSpecs()), *type.create(Options(type.options)), {},
-                           {.threads = 1, .seed = 1});
+                           {{.threads = 1, .seed = 1}});
 }
 
 // `count` golden-ratio points (s, t) of the unit square.
