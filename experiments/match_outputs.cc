@@ -38,6 +38,12 @@ struct DisparityErrors {
   double BadPercent() const { return Percent(static_cast<double>(bad), static_cast<double>(count)); }
 };
 
+// A disparity is left minus right; a displacement is where a point of the left image went, right minus left.
+Image Negated(Image image) {
+  for (float& value : image.values) value = -value;
+  return image;
+}
+
 void WriteMatches(const std::filesystem::path& path, const StereoMatches& matches, bool rectified) {
   std::vector<std::string> columns = {"x", "y"};
   const std::vector<std::string> values =
@@ -49,7 +55,8 @@ void WriteMatches(const std::filesystem::path& path, const StereoMatches& matche
   rows.reserve(matches.windows.size());
   for (const MatchedWindow& window : matches.windows) {
     std::vector<MetricValue> row = {static_cast<std::int64_t>(window.x), static_cast<std::int64_t>(window.y)};
-    for (std::size_t k = 0; k < values.size(); ++k) row.emplace_back(window.match.warp[k]);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      row.emplace_back((rectified ? 1 : -1) * window.match.warp[k]);
     row.insert(row.end(), {window.match.sigma, window.match.correlation, window.match.noise,
                            std::string(WindowStatusName(window.status))});
     rows.push_back(std::move(row));
@@ -113,11 +120,15 @@ void SetDisparityTruth(const StereoMatches& matches, const Image& truth, double 
 void AddMatchFiles(std::shared_ptr<const StereoMatches> matches, bool rectified, FitOutcome* outcome) {
   outcome->files.push_back(
       {"matches.csv", [=](const auto& path) { WriteMatches(path, *matches, rectified); }});
-  outcome->files.push_back({rectified ? "disparity.tiff" : "displacement_x.tiff",
-                            [=](const auto& path) { WriteFloatTiff(path, matches->disparity); }});
-  if (!rectified) {
+  if (rectified) {
     outcome->files.push_back(
-        {"displacement_y.tiff", [=](const auto& path) { WriteFloatTiff(path, matches->displacement_y); }});
+        {"disparity.tiff", [=](const auto& path) { WriteFloatTiff(path, matches->disparity); }});
+  } else {
+    outcome->files.push_back({"displacement_x.tiff",
+                              [=](const auto& path) { WriteFloatTiff(path, Negated(matches->disparity)); }});
+    outcome->files.push_back({"displacement_y.tiff", [=](const auto& path) {
+                                WriteFloatTiff(path, Negated(matches->displacement_y));
+                              }});
   }
   outcome->files.push_back({"sigma.tiff", [=](const auto& path) { WriteFloatTiff(path, matches->sigma); }});
 }

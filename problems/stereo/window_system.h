@@ -118,7 +118,9 @@ class WindowSystem {
 
   void Sample(const CubicImage& right, const double* warp, int row, WindowSamples* samples) const {
     const double eta = row - patch_->half;
-    const int begin = row * patch_->stride, y = patch_->y + row - patch_->half;
+    const int begin = row * patch_->stride;
+    // Rows beyond the image take no part, but are sampled: from within.
+    const int y = std::clamp(patch_->y + row - patch_->half, 0, right.height() - 1);
     for (int k = 0; k < patch_->stride; ++k) {
       const int i = begin + k;
       const double xi = k - patch_->half, weight = patch_->weight[i];

@@ -49,7 +49,8 @@ cv::Mat ObjectSide(const cv::Mat& levels, BackgroundKind background, const std::
   cv::Mat bright;
   cv::threshold(levels, bright, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
   const double contrast = cv::mean(levels, bright)[0] - cv::mean(levels, ~bright)[0];
-  if (!(contrast >= kLeastContrast) || cv::countNonZero(bright) == 0) {
+  const int count = cv::countNonZero(bright);
+  if (!(contrast >= kLeastContrast) || count == 0 || count == static_cast<int>(bright.total())) {
     throw InputError(name + ": the object cannot be told from its background, the image has no contrast " +
                      "(black or saturated?); give masks in the list of views");
   }

@@ -127,7 +127,7 @@ class BadTurn : public ::testing::Test {
     const ProgramResult made =
         RunFrond({"synth", "turntable", "--out=session",
                   "--set=pairs=3; phi=5; camera.width=480; camera.height=400; camera.focal=1150; "
-                  "sensor.supersampling=1; board.step=30; board.free=6"},
+                  "sensor.supersampling=1; board.first=-40; board.last=40; board.step=20; board.free=6"},
                  session_->path());
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }

@@ -93,6 +93,10 @@ void PrintTo(const ShippedMesh& object, std::ostream* out) { *out << object.path
 
 const char* const kCurves[] = {"curve/circle.yaml", "curve/closed_outline.yaml"};
 
+// Run by photograph_configs_test.cc.
+const char* const kOfPhotographs[] = {"stereo/calibrated_pair.yaml", "stereo/displacement.yaml",
+                                      "stereo/pair.yaml", "turntable/pear.yaml"};
+
 constexpr char kSweep[] = "leaf/point_count.yaml";
 constexpr char kCone[] = "objects/cone.yaml";
 constexpr char kStandard[] = "standard/misra1a.yaml";
@@ -333,6 +337,7 @@ TEST(ShippedConfigs, AreAllNamedHere) {
   for (const ShippedMesh& object : kMeshes) named.emplace_back(object.path);
   for (const char* config : kCurves) named.emplace_back(config);
   for (const ShippedStudyCase& study : kStudies) named.emplace_back(study.path);
+  for (const char* config : kOfPhotographs) named.emplace_back(config);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kFolder)) {
     if (entry.is_regular_file()) found.push_back(std::filesystem::relative(entry.path(), kFolder));
   }
@@ -348,6 +353,7 @@ TEST(ShippedConfigs, AreRightAsTheyStand) {
   for (const ShippedMesh& object : kMeshes)
     EXPECT_EQ(CheckConfig(kFolder / object.path, {}), 1U) << object.path;
   for (const char* config : kCurves) EXPECT_EQ(CheckConfig(kFolder / config, {}), 1U) << config;
+  for (const char* config : kOfPhotographs) EXPECT_EQ(CheckConfig(kFolder / config, {}), 1U) << config;
   EXPECT_EQ(CheckConfig(kFolder / kSweep, {}), 8U * 8U * 10U);
   for (const ShippedStudyCase& study : kStudies) {
     EXPECT_EQ(CheckConfig(kFolder / study.path, {}), study.jobs) << study.path;

@@ -162,7 +162,8 @@ TEST(TurntableConfigs, Pear_BecomesACloudAndAClosedSurface) {
   const TempFolder folder;
   Synthesise("turntable",
              "pairs=10; phi=5; camera.width=480; camera.height=400; camera.focal=1150; "
-             "sensor.supersampling=1; texture.grain=1.5; sensor.colour=true; board.step=20",
+             "sensor.supersampling=1; texture.grain=1.5; sensor.colour=true; board.first=-40; board.last=40; "
+             "board.step=10",
              3, folder / "session", false, 2);
   const std::filesystem::path session = folder / "session";
   const std::string set = "input={views: " + (session / "views.csv").string() +
