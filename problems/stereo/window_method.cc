@@ -81,9 +81,7 @@ MatchWindow MakeMatchWindow(const WindowImages& images, const Image& right, cons
     return [matcher](int x, int y, const WarpValues& start) { return matcher->Match(x, y, start); };
   }
   if (!solver.solver) {
-    return [=](int x, int y, const WarpValues& start) {
-      return MatchByAutoDiff(images, model, x, y, start);
-    };
+    return [=](int x, int y, const WarpValues& start) { return MatchByAutoDiff(images, model, x, y, start); };
   }
   return [=](int x, int y, const WarpValues& start) {
     // One thread: the windows themselves are spread over the threads.
