@@ -14,6 +14,8 @@
 namespace frond {
 namespace {
 
+constexpr std::size_t kTruthSamples = 20000;  // of a true mesh, evenly by area
+
 std::vector<OptionSpec> ScanInputSpecs() {
   return {
       {.name = "cloud",
@@ -213,7 +215,7 @@ RunInput LoadScan(const InputSource& source, std::uint64_t seed) {
   return input;
 }
 
-RunInput LoadPhotographs(const InputSource& source) {
+RunInput LoadPhotographs(const InputSource& source, std::uint64_t seed) {
   const PhotographSource& photographs = source.photographs;
   RunInput input;
   input.report.format = "photographs";
@@ -229,6 +231,10 @@ RunInput LoadPhotographs(const InputSource& source) {
     input.turntable = LoadTurntable(photographs);
     input.unit = input.turntable->unit;
     input.truth = input.turntable->truth;
+    if (const auto& mesh = input.turntable->truth_mesh) {  // its vertices may lie closer here than there
+      Random random(seed);
+      input.truth = SampleMesh(*mesh, kTruthSamples, &random);
+    }
   }
   return input;
 }
@@ -262,7 +268,7 @@ RunInput LoadInput(const InputSource& source, std::uint64_t seed) {
     none.unit = "none";
     return none;
   }
-  return source.kind == InputKind::kScan ? LoadScan(source, seed) : LoadPhotographs(source);
+  return source.kind == InputKind::kScan ? LoadScan(source, seed) : LoadPhotographs(source, seed);
 }
 
 }  // namespace frond

@@ -15,7 +15,7 @@ namespace frond {
 // How each window is matched from its start (MATH.md §3).
 enum class MatchMethod { kWindow, kClosedForm, kClassicalDmt, kModifiedDmt };
 
-// Of kWindow: A's Gauss-Newton with its own derivatives, or the auto-diff fit by a registered solver.
+// Of kWindow: the structured solver (window_matcher.h), or the auto-diff cost by a registered solver.
 enum class MatchDerivatives { kStructured, kAutodiff };
 
 // Where the integer starts come from. Semi-global matching needs a rectified pair.
