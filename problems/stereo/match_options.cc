@@ -66,6 +66,8 @@ std::vector<OptionSpec> StereoMatchSpecs(const std::string& prefix) {
       DisparitySpec(prefix + "disparity"),
       FlagSpec(prefix + "propagate", defaults.propagate,
                "Windows without a good match start again from their neighbours'"),
+      IntegerSpec(prefix + "edge", defaults.edge, 0, 100,
+                  "Width of a mask's edge, in pixels, where object and background mix: it takes no part"),
       NumberSpec(prefix + "min_texture", defaults.min_texture, 0, 255,
                  "Least RMS slope of grey along x in a window, grey levels a pixel"),
       NumberSpec(prefix + "min_correlation", defaults.min_correlation, -1, 1,
@@ -113,6 +115,7 @@ StereoMatchOptions StereoMatchOptionsFrom(const Options& options, const std::str
     match.disparity = {range[0], range[1]};
   }
   match.propagate = options.Flag(prefix + "propagate");
+  match.edge = options.Integer(prefix + "edge");
   match.min_texture = options.Number(prefix + "min_texture");
   match.min_correlation = options.Number(prefix + "min_correlation");
   match.max_sigma = options.Number(prefix + "max_sigma");

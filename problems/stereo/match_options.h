@@ -35,6 +35,7 @@ struct StereoMatchOptions {
   // whose disparities are all negative is refused as swapped. Not rectified: the largest |displacement|.
   std::optional<std::array<int, 2>> disparity = std::nullopt;
   bool propagate = true;         // windows without a good match start again from their neighbours'
+  int edge = 1;                  // of the masks: pixels that take no part, object and background mixed
   double min_texture = 0.3;      // RMS slope of grey along x in the window, grey levels a pixel
   double min_correlation = 0.8;  // of the window and its counterpart after the fit
   double max_sigma = 0.2;        // of the disparity

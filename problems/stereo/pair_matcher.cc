@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "models/smoothing.h"
 #include "problems/stereo/integer_start.h"
+#include "problems/stereo/mask_edge.h"
 #include "problems/stereo/match_acceptance.h"
 #include "problems/stereo/pyramid_correlation.h"
 
@@ -50,16 +51,18 @@ StartMap FindStarts(const Image& left, const Image& right, const Mask& left_mask
 
 PairMatcher::PairMatcher(const Image& left, const Image& right, const Mask& left_mask, const Mask& right_mask,
                          const StereoMatchOptions& options, const WindowSolver& solver, StartMap starts)
-    : left_mask_(left_mask),
+    : left_mask_(WithoutEdge(left_mask, options.edge)),
+      right_mask_(WithoutEdge(right_mask, options.edge)),
       options_(options),
       starts_(std::move(starts)),
-      left_(Smoothed(left, left_mask, options.window.smoothing)),
-      right_(Smoothed(right, right_mask, options.window.smoothing)),
+      left_(Smoothed(left, left_mask_, options.window.smoothing)),
+      right_(Smoothed(right, right_mask_, options.window.smoothing)),
       right_spline_(right_),
-      forward_(MakeMatchWindow({&left_, &left_mask, &right_spline_, &right_mask}, right_, options, solver)) {
+      forward_(
+          MakeMatchWindow({&left_, &left_mask_, &right_spline_, &right_mask_}, right_, options, solver)) {
   if (options.left_right <= 0) return;
   left_spline_ = CubicImage(left_);
-  back_ = MakeMatchWindow({&right_, &right_mask, &left_spline_, &left_mask}, left_, options, solver);
+  back_ = MakeMatchWindow({&right_, &right_mask_, &left_spline_, &left_mask_}, left_, options, solver);
 }
 
 std::optional<WarpValues> PairMatcher::StartAt(int x, int y) const {

@@ -41,13 +41,14 @@ class PairMatcher {
   // From `start`, judged by every test that `options` asks for.
   MatchedWindow MatchFrom(int x, int y, const WarpValues& start) const;
 
-  const Image& left() const { return left_; }  // smoothed
+  const Image& left() const { return left_; }           // smoothed
+  const Mask& left_mask() const { return left_mask_; }  // without its edge
   const StartMap& starts() const { return starts_; }
 
  private:
   WindowStatus Judge(const MatchedWindow& window, const WarpValues& start) const;
 
-  const Mask& left_mask_;
+  Mask left_mask_, right_mask_;  // without their edge
   StereoMatchOptions options_;
   StartMap starts_;
   Image left_, right_;  // smoothed

@@ -85,7 +85,7 @@ StereoMatches MatchStereo(const Image& left, const Image& right, const Mask& lef
   GridOfWindows grid = MakeGrid(left, left_mask, options.step);
   MatchGrid(matcher, options, threads, grid);
   if (options.curvature) {
-    RemoveCurvatureBias(grid.index, matcher.left(), left_mask, options, threads, grid.windows);
+    RemoveCurvatureBias(grid.index, matcher.left(), matcher.left_mask(), options, threads, grid.windows);
   }
   StereoMatches matches{.step = options.step, .windows = std::move(grid.windows)};
   for (const MatchedWindow& window : matches.windows) {
